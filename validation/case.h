@@ -1,0 +1,203 @@
+/* case.h -- one case: a question put to a model, its runs, and its checks.
+ *
+ * A case is one YAML file, data only; docs/cases.md gives the format.  Loading
+ * finds every fault in one pass, each with file:line:column: unknown keys and
+ * names (with the nearest known one), values out of range, an observable that
+ * nothing uses, a check that applies to no point, a table without an entry for
+ * some point, a tier without checks.  Each tier is resolved when the case is
+ * loaded, so a fault in a tier that is not run today is found today.
+ *
+ * Values of parameters stay YAML nodes: only the model knows their types, and
+ * the node knows the line that a message has to name.
+ */
+#ifndef VALIDATION_CASE_H
+#define VALIDATION_CASE_H
+
+#include "common/yaml.h"
+#include "validation/across.h"
+#include "validation/arena.h"
+#include "validation/prediction.h"
+#include "validation/recipe.h"
+
+enum tier { TIER_SMOKE, TIER_PAPER, TIER_LARGE, TIER_COUNT };
+
+struct case_parameter {
+    const char *name;
+    const struct yaml_node *value; /* a scalar or a list of scalars */
+};
+
+struct case_axis { /* one swept parameter */
+    const char *name;
+    const struct yaml_node *list; /* its values: list->child[0 .. count-1] */
+};
+
+struct case_filter { /* which points: each named parameter has one of its values */
+    size_t count;
+    const struct yaml_node *map; /* NULL: every point; map->child[i].key names parameter i */
+};
+
+struct case_seed_rule {
+    struct case_filter points;
+    size_t count;
+};
+
+struct case_seeds { /* the first rule that a point matches counts */
+    long long first;
+    size_t rule_count;
+    const struct case_seed_rule *rule;
+};
+
+struct case_start { /* begin from the result of another case's run with the same seed */
+    const char *case_name;             /* NULL: none */
+    const struct yaml_node *point;     /* map of its swept parameters, or NULL */
+    const struct yaml_node *node;
+};
+
+struct case_samples {
+    size_t count;
+    const double *time;             /* time[0 .. count-1], strictly increasing */
+    const struct yaml_node *node;
+};
+
+struct case_observable {
+    const char *name;
+    const struct recipe *recipe;
+    double setting[RECIPE_MAX_SETTINGS]; /* in the recipe's order */
+    const struct yaml_node *node;
+};
+
+/* A number of a run, or of a whole sweep: `settling.speed`, `order.order`. */
+struct case_number {
+    bool across;   /* index into the tier's across list, else into the case's observables */
+    size_t index, output;
+};
+
+struct case_across {
+    const char *name;
+    const struct across *fit;
+    struct case_number of; /* an observable's output */
+    const char *along;     /* a swept parameter */
+    struct case_filter points;
+    bool exact;            /* `exact: true`: values of single runs carry no scatter */
+    const struct yaml_node *node;
+};
+
+enum binding_kind { BINDING_NUMBER, BINDING_OBSERVABLE, BINDING_PARAMETER };
+
+struct case_binding { /* where one input of a prediction comes from */
+    enum binding_kind kind;
+    double number;
+    struct case_number observable;
+    const char *parameter;
+};
+
+struct case_prediction {
+    const struct prediction *prediction; /* NULL: none */
+    struct case_binding input[PREDICTION_MAX_INPUTS];
+};
+
+enum expect_kind { EXPECT_NUMBER, EXPECT_PREDICTION, EXPECT_TABLE };
+
+struct case_expect {
+    enum expect_kind kind;
+    double value, uncertainty;         /* EXPECT_NUMBER */
+    struct case_prediction prediction; /* EXPECT_PREDICTION */
+    const char *by;                    /* EXPECT_TABLE: a parameter, and one entry a value */
+    size_t count;
+    const struct case_entry *entry;
+    const struct yaml_node *node;
+};
+
+struct case_entry {
+    const char *value; /* of the parameter, as written */
+    const struct yaml_node *node;
+    struct case_expect expect;
+};
+
+struct case_amount { /* 0.02 or 3 % of |expected| */
+    bool given, percent;
+    double value; /* percent: 3 for 3 % */
+};
+
+enum comparison { COMPARE_WITHIN, COMPARE_OUTSIDE, COMPARE_AT_MOST, COMPARE_AT_LEAST };
+enum check_kind { KIND_ROUND_OFF, KIND_ORDER, KIND_MODEL };
+
+struct case_check {
+    const char *name, *because, *unit;
+    const char *observable; /* as written */
+    struct case_number number;
+    struct case_prediction per;
+    struct case_filter points;
+    struct case_expect expect;
+    enum comparison comparison;
+    enum check_kind kind;
+    struct case_amount margin, scatter;
+    const struct yaml_node *node;
+};
+
+struct case_figure {
+    const char *recipe, *title, *caption; /* title and caption may be NULL */
+    size_t observable_count;
+    const size_t *observable; /* indices of the case's observables that it draws */
+    const struct yaml_node *node;
+};
+
+struct case_tier { /* everything of one tier, overrides applied */
+    bool present;
+    size_t parameter_count, axis_count, check_count, point_count;
+    const struct case_parameter *parameter;
+    const struct case_axis *axis;
+    struct case_samples samples, particle_samples; /* the latter may be empty */
+    struct case_start start;
+    struct case_seeds seeds;
+    double expect_s, limit_s;
+    const struct case_check *check;
+    const struct yaml_node *node;
+};
+
+struct case_file {
+    struct arena arena;
+    struct yaml_document *document;
+    const char *path, *name, *title, *source, *question, *model;
+    const char *large_only; /* why there is no smoke tier, or NULL */
+    size_t tag_count, observable_count, across_count, figure_count, dataset_count;
+    const char *const *tag;
+    const struct case_observable *observable;
+    const struct case_across *across;
+    const struct case_figure *figure;
+    const char *const *dataset; /* union over its observables and `also_write`, sorted */
+    struct case_tier tier[TIER_COUNT];
+};
+
+/* folder/NAME.yaml must hold case NAME.  On error *out is NULL and fault has
+ * every finding. */
+enum status case_load(const char *folder, const char *name, struct case_file **out,
+                      struct fault *fault);
+void case_free(struct case_file *c); /* NULL is allowed */
+
+const char *case_tier_name(enum tier t);
+enum status case_tier_find(const char *name, enum tier *out, struct fault *fault);
+const char *case_comparison_name(enum comparison c);
+const char *case_kind_name(enum check_kind k);
+
+/* Lower-case letters, digits, '-' and '_', in parts joined by '/'. */
+bool case_name_is_safe(const char *name);
+
+/* Do two values as written mean the same: equal text or equal numbers. */
+bool case_value_equal(const char *a, const char *b);
+
+/* Does a point with these parameters pass the filter? */
+bool case_filter_takes(const struct case_filter *f, const struct case_parameter *p, size_t count);
+
+/* Parameter by name, or NULL. */
+const struct yaml_node *case_parameter_find(const struct case_parameter *p, size_t count,
+                                            const char *name);
+
+/* The point-th combination of a tier, 0 .. point_count-1, the last axis running
+ * fastest: all parameters, swept ones included.  out[0 .. parameter_count+axis_count-1]. */
+void case_point(const struct case_tier *t, size_t point, struct case_parameter *out);
+
+/* How many seeds a point gets; 0 when no rule matches it. */
+size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count);
+
+#endif
