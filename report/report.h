@@ -1,0 +1,123 @@
+/* report.h -- rows and curves, ready to be shown: no physics, no judging.
+ *
+ * validation/ fills these structs; report/ turns the same structs into
+ * results.json (json_report.c), junit.xml (junit.c), summary.md (markdown.c)
+ * and index.html (html.c, with figures drawn by gnuplot: figure.c, and grain
+ * pictures: picture.c).  All text is borrowed from the caller and escaped here.
+ */
+#ifndef REPORT_REPORT_H
+#define REPORT_REPORT_H
+
+#include "common/fault.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum verdict { VERDICT_PASS, VERDICT_FAIL, VERDICT_INCONCLUSIVE };
+
+/* One check at one point. */
+struct report_row {
+    const char *case_name, *point, *check, *observable, *unit;
+    double measured, uncertainty; /* NaN where it does not exist: see reason */
+    double expected, expected_uncertainty;
+    double tolerance;       /* half width of what passes, in the unit of measured */
+    const char *comparison; /* "within", "outside", "at most", "at least" */
+    const char *kind;       /* "round-off", "order", "model", "run" */
+    enum verdict verdict;
+    const char *because;     /* why this expectation and tolerance */
+    const char *reason;      /* of the verdict, one sentence with numbers */
+    const char *repeat;      /* the one command that repeats the run(s) */
+    const char *log_end;     /* last lines of a failed run's log, or NULL */
+    const char *const *runs; /* run ids, runs[0 .. run_count-1] */
+    size_t run_count;
+    double seconds; /* wall time of its runs */
+};
+
+enum series_style { SERIES_POINTS, SERIES_LINE, SERIES_DASHED, SERIES_LINE_POINTS };
+
+struct report_series {
+    const char *label;
+    enum series_style style;
+    int colour; /* 0..5, the six colours of the house; -1: grey */
+    size_t count;
+    const double *x, *y, *error; /* error may be NULL */
+};
+
+struct report_panel {
+    const char *y_label;
+    bool y_log;
+    double y_min, y_max; /* automatic where y_min >= y_max */
+    size_t series_count;
+    const struct report_series *series;
+};
+
+/* One figure: one panel, or two above each other with a common x axis (a residual panel). */
+struct report_figure {
+    const char *name;                  /* file-name safe: "settling-curve" */
+    const char *title, *caption, *alt; /* caption says what is seen and what is expected */
+    const char *x_label;
+    bool x_log;
+    size_t panel_count; /* 1 to 3 */
+    const struct report_panel *panel;
+};
+
+/* Grains in a box, coloured by a value or by a class. */
+struct report_picture {
+    const char *name, *title, *caption, *alt;
+    double width, height; /* of the box, l */
+    size_t count;
+    const double *x, *y, *radius; /* l */
+    const double *shade;          /* 0..1 for the colour scale; NULL: plain */
+    const char *shade_label;      /* of the colour bar: "solid fraction" */
+    double shade_min, shade_max;  /* values at 0 and 1 */
+};
+
+struct report_table {
+    const char *title, *caption;
+    size_t columns, rows;
+    const char *const *heading; /* heading[0 .. columns-1] */
+    const char *const *cell;    /* cell[row*columns + column] */
+};
+
+struct report_case {
+    const char *name, *title, *source, *question, *command;
+    bool skipped;
+    const char *skip_reason;
+    size_t row_count, figure_count, picture_count, table_count;
+    const struct report_row *row;
+    const struct report_figure *figure;
+    const struct report_picture *picture;
+    const struct report_table *table;
+};
+
+struct report_fact {
+    const char *name, *value;
+};
+
+struct report {
+    const char *suite; /* "bedcheck 0.1.0" */
+    const char *tier, *solver, *solver_key, *started;
+    bool modified;            /* --set was used: the report says MODIFIED */
+    const char *modification; /* "restitution=0.5" */
+    size_t case_count, fact_count;
+    const struct report_case *cases;
+    const struct report_fact *fact; /* provenance: commit, machine, versions, times */
+};
+
+struct report_count {
+    size_t pass, fail, inconclusive, skipped;
+};
+struct report_count report_tally(const struct report *r);
+enum verdict report_verdict(const struct report *r); /* fail before inconclusive before pass */
+/* The tightest passed or worst failed row: largest |measured-expected|/tolerance; NULL if none. */
+const struct report_row *report_worst(const struct report *r);
+const char *verdict_name(enum verdict v); /* "pass", "fail", "inconclusive" */
+
+/* Each writes its file whole or not at all. */
+enum status report_write_json(const struct report *r, const char *path, struct fault *fault);
+enum status report_write_junit(const struct report *r, const char *path, struct fault *fault);
+enum status report_write_markdown(const struct report *r, const char *path, struct fault *fault);
+/* folder/index.html, self-contained, and folder/NAME.png full-size pictures beside it. */
+enum status report_write_html(const struct report *r, const char *folder, struct fault *fault);
+
+#endif
