@@ -77,6 +77,11 @@ enum status h5_read_slab(struct h5_reader *r, const char *name, size_t index, si
 enum status h5_read_text(struct h5_reader *r, const char *object, const char *attribute, char *out,
                          size_t size, struct fault *fault);
 
+/* An attribute of reals, a number or a list of at most max_count: *out[0 .. count-1],
+ * to be freed.  STATUS_NOT_FOUND when there is none; STATUS_BAD_INPUT when it is text. */
+enum status h5_read_reals(struct h5_reader *r, const char *object, const char *attribute,
+                          size_t max_count, double **out, size_t *count, struct fault *fault);
+
 /* The `unit` attribute of a dataset. */
 enum status h5_unit(struct h5_reader *r, const char *name, char *out, size_t size,
                     struct fault *fault);
