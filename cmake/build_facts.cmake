@@ -1,6 +1,7 @@
 # Writes OUTPUT, a header with the commit and the dirty flag of SOURCE, and
 # touches it only when they changed.  Run at every build:
 #     cmake -D SOURCE=dir -D OUTPUT=file -P build_facts.cmake
+cmake_policy(VERSION 3.25)
 set(COMMIT unknown)
 set(DIRTY unknown)
 find_program(GIT git)
@@ -22,7 +23,7 @@ if(GIT)
     endif()
   endif()
 endif()
-file(CONFIGURE OUTPUT ${OUTPUT} @ONLY CONTENT
-"#define BUILD_COMMIT \"@COMMIT@\"
-#define BUILD_DIRTY \"@DIRTY@\"
+file(CONFIGURE OUTPUT ${OUTPUT} CONTENT
+"#define BUILD_COMMIT \"${COMMIT}\"
+#define BUILD_DIRTY \"${DIRTY}\"
 ")

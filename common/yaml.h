@@ -43,7 +43,8 @@ enum status yaml_parse(const char *name, const char *text, size_t length,
                        struct yaml_document **out, struct fault *fault);
 
 const struct yaml_node *yaml_root(const struct yaml_document *d);
-void yaml_free(struct yaml_document *d); /* NULL is allowed */
+/* NULL is allowed.  Hidden, because libyaml exports a yaml_free that it calls itself. */
+void yaml_free(struct yaml_document *d) __attribute__((visibility("hidden")));
 
 /* Child of a map under key, or NULL. */
 const struct yaml_node *yaml_get(const struct yaml_node *map, const char *key);

@@ -44,13 +44,24 @@ struct parameter_set {
     const char **place; /* "file:line:column" or "--set" or "default", for messages */
 };
 
+enum dataset_when {
+    DATASET_ONCE,      /* at the first particle sample: ids, radii */
+    DATASET_PARTICLES, /* at the particle samples */
+    DATASET_SAMPLES    /* at the samples: fields, observables */
+};
+
+struct dataset {
+    const char *name; /* path in the result file: "fields/pressure" */
+    enum dataset_when when;
+    const char *doc; /* one line: shape and unit */
+};
+
 struct model {
     const char *name, *title, *source;
     const char *time_unit, *length_unit;
     const struct parameter *parameters;
     size_t parameter_count;
-    const char *const *datasets;          /* NULL-terminated: every dataset it can write */
-    const char *const *particle_datasets; /* those of `datasets` that follow particle_samples */
+    const struct dataset *datasets; /* every dataset it can write; ends at name == NULL */
 
     /* All faults of the input are found here, before the first step.
      * start: a result file to start from, or NULL. On error *state is NULL. */
@@ -68,6 +79,8 @@ struct model {
                            struct fault *fault);
     /* Members of an open JSON object: seconds by part, counters worth a look. */
     void (*report_cost)(const void *state, struct json *j);
+    /* What a user should know before the run starts, or NULL: "dt_tau is above half ...". */
+    const char *(*notice)(const void *state);
     enum status (*save)(const void *state, const char *path, struct fault *fault);
     enum status (*load)(void *state, const char *path, struct fault *fault);
     void (*free)(void *state);

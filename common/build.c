@@ -1,0 +1,88 @@
+/* build.c -- see build.h.  BUILD_VERSION and BUILD_FLAGS come from the command
+ * line, BUILD_COMMIT and BUILD_DIRTY from build_facts.h, written at every build. */
+#include "common/build.h"
+
+#include "build_facts.h"
+
+#include <gsl/gsl_version.h>
+#include <hdf5.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <yaml.h>
+
+const char *build_version(void) {
+    return BUILD_VERSION;
+}
+
+const char *build_commit(void) {
+    return BUILD_COMMIT;
+}
+
+const char *build_dirty(void) {
+    return BUILD_DIRTY;
+}
+
+const char *build_compiler(void) {
+#ifdef __clang__
+    return "clang " __clang_version__;
+#else
+    return "gcc " __VERSION__;
+#endif
+}
+
+const char *build_flags(void) {
+    return BUILD_FLAGS;
+}
+
+char *build_line(const char *program) {
+    char *line;
+    int length = asprintf(&line, "%s %s (commit %s, %s, %s)", program, build_version(),
+                          build_commit(), build_dirty(), build_compiler());
+    return length < 0 ? NULL : line;
+}
+
+/* The processor's name as Linux tells it, or "unknown". */
+static void cpu_model(char *out, size_t size) {
+    snprintf(out, size, "unknown");
+    FILE *file = fopen("/proc/cpuinfo", "r");
+    if (file == NULL)
+        return;
+    char line[512];
+    while (fgets(line, sizeof line, file) != NULL) {
+        char *value = strchr(line, ':');
+        if (strncmp(line, "model name", 10) != 0 || value == NULL)
+            continue;
+        value += 1 + strspn(value + 1, " \t");
+        value[strcspn(value, "\n")] = '\0';
+        snprintf(out, size, "%s", value);
+        break;
+    }
+    fclose(file);
+}
+
+static void member(struct json *j, const char *key, const char *value) {
+    json_key(j, key);
+    json_text(j, value);
+}
+
+void build_describe(struct json *j) {
+    char text[256];
+    member(j, "version", build_version());
+    member(j, "commit", build_commit());
+    member(j, "dirty", build_dirty());
+    member(j, "compiler", build_compiler());
+    member(j, "flags", build_flags());
+    member(j, "gsl", gsl_version);
+    unsigned major = 0, minor = 0, release = 0;
+    H5get_libversion(&major, &minor, &release);
+    snprintf(text, sizeof text, "%u.%u.%u", major, minor, release);
+    member(j, "hdf5", text);
+    member(j, "libyaml", yaml_get_version_string());
+    cpu_model(text, sizeof text);
+    member(j, "cpu", text);
+    if (gethostname(text, sizeof text) != 0)
+        snprintf(text, sizeof text, "unknown");
+    text[sizeof text - 1] = '\0';
+    member(j, "host", text);
+}
