@@ -335,35 +335,77 @@ static char *attribute_text(hid_t attribute, hid_t type) {
     return text;
 }
 
-enum status h5_read_text(struct h5_reader *r, const char *object, const char *attribute, char *out,
-                         size_t size, struct fault *fault) {
+/* Open `attribute` of `object`; *found is -1 unless the status is STATUS_OK. */
+static enum status open_attribute(struct h5_reader *r, const char *object, const char *attribute,
+                                  hid_t *found, struct fault *fault) {
+    *found = -1;
     if (strcmp(object, "/") != 0 && !h5_has(r, object))
         return fault_set(fault, STATUS_NOT_FOUND, "%s: %s: no such object", r->path, object);
     hid_t open = H5Oopen(r->file, object, H5P_DEFAULT);
     if (open < 0)
         return read_fault(r, object, fault);
     enum status status = STATUS_OK;
-    char *text = NULL;
-    if (H5Aexists(open, attribute) <= 0) {
+    if (H5Aexists(open, attribute) <= 0)
         status = fault_set(fault, STATUS_NOT_FOUND, "%s: %s: no attribute '%s'", r->path, object,
                            attribute);
-        goto end;
-    }
-    hid_t a = H5Aopen(open, attribute, H5P_DEFAULT);
-    hid_t type = H5Aget_type(a);
-    text = attribute_text(a, type);
-    H5Tclose(type);
-    H5Aclose(a);
-    if (text == NULL || strlen(text) >= size) {
-        status = fault_set(fault, STATUS_BAD_INPUT, "%s: %s: attribute '%s' is not a short text",
-                           r->path, object, attribute);
-        goto end;
-    }
-    memcpy(out, text, strlen(text) + 1);
-end:
-    free(text);
+    else if ((*found = H5Aopen(open, attribute, H5P_DEFAULT)) < 0)
+        status = read_fault(r, object, fault);
     H5Oclose(open);
     return status;
+}
+
+enum status h5_read_text(struct h5_reader *r, const char *object, const char *attribute, char *out,
+                         size_t size, struct fault *fault) {
+    hid_t a;
+    enum status status = open_attribute(r, object, attribute, &a, fault);
+    if (status != STATUS_OK)
+        return status;
+    hid_t type = H5Aget_type(a);
+    char *text = attribute_text(a, type);
+    H5Tclose(type);
+    H5Aclose(a);
+    if (text == NULL || strlen(text) >= size)
+        status = fault_set(fault, STATUS_BAD_INPUT, "%s: %s: attribute '%s' is not a short text",
+                           r->path, object, attribute);
+    else
+        memcpy(out, text, strlen(text) + 1);
+    free(text);
+    return status;
+}
+
+enum status h5_read_reals(struct h5_reader *r, const char *object, const char *attribute,
+                          size_t max_count, double **out, size_t *count, struct fault *fault) {
+    hid_t a;
+    *out = NULL;
+    enum status status = open_attribute(r, object, attribute, &a, fault);
+    if (status != STATUS_OK)
+        return status;
+    hid_t type = H5Aget_type(a), space = H5Aget_space(a);
+    H5T_class_t kind = H5Tget_class(type);
+    hssize_t there = H5Sget_simple_extent_npoints(space);
+    bool numbers = (kind == H5T_FLOAT || kind == H5T_INTEGER) && there >= 0;
+    H5Tclose(type);
+    H5Sclose(space);
+    double *values = NULL;
+    if (!numbers)
+        status = fault_set(fault, STATUS_BAD_INPUT, "%s: %s: attribute '%s' does not hold numbers",
+                           r->path, object, attribute);
+    else if ((size_t)there > max_count)
+        status = fault_set(fault, STATUS_BAD_INPUT,
+                           "%s: %s: attribute '%s' has %lld values, at most %zu expected", r->path,
+                           object, attribute, (long long)there, max_count);
+    else if ((values = calloc((size_t)there + 1, sizeof *values)) == NULL)
+        status = fault_set(fault, STATUS_NO_MEMORY, "%s: no memory", r->path);
+    else if (there > 0 && H5Aread(a, H5T_NATIVE_DOUBLE, values) < 0)
+        status = read_fault(r, attribute, fault);
+    H5Aclose(a);
+    if (status != STATUS_OK) {
+        free(values);
+        return status;
+    }
+    *out = values;
+    *count = (size_t)there;
+    return STATUS_OK;
 }
 
 enum status h5_unit(struct h5_reader *r, const char *name, char *out, size_t size,

@@ -23,11 +23,11 @@ void run_view_close(struct run_view *v); /* NULL is allowed */
 
 /* A parameter: the run file's, else what the result file says the solver used
  * (attributes of /parameters).  A choice is compared with run_view_parameter_is. */
-enum status run_view_parameter(const struct run_view *v, const char *name, double *out,
+enum status run_view_parameter(struct run_view *v, const char *name, double *out,
                                struct fault *fault);
-enum status run_view_parameter_list(const struct run_view *v, const char *name,
+enum status run_view_parameter_list(struct run_view *v, const char *name,
                                     const double **values, size_t *count, struct fault *fault);
-enum status run_view_parameter_text(const struct run_view *v, const char *name, const char **out,
+enum status run_view_parameter_text(struct run_view *v, const char *name, const char **out,
                                     struct fault *fault);
 
 /* A time series: /NAME/{step,time,value}.  value[frame * size .. + size-1]. */
