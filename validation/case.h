@@ -47,15 +47,15 @@ struct case_seeds { /* the first rule that a point matches counts */
     const struct case_seed_rule *rule;
 };
 
-struct case_start { /* begin from the result of another case's run with the same seed */
-    const char *case_name;             /* NULL: none */
-    const struct yaml_node *point;     /* map of its swept parameters, or NULL */
+struct case_start {        /* begin from the result of another case's run with the same seed */
+    const char *case_name; /* NULL: none */
+    const struct yaml_node *point; /* map of its swept parameters, or NULL */
     const struct yaml_node *node;
 };
 
 struct case_samples {
     size_t count;
-    const double *time;             /* time[0 .. count-1], strictly increasing */
+    const double *time; /* time[0 .. count-1], strictly increasing */
     const struct yaml_node *node;
 };
 
@@ -68,7 +68,7 @@ struct case_observable {
 
 /* A number of a run, or of a whole sweep: `settling.speed`, `order.order`. */
 struct case_number {
-    bool across;   /* index into the tier's across list, else into the case's observables */
+    bool across; /* index into the tier's across list, else into the case's observables */
     size_t index, output;
 };
 
@@ -78,7 +78,7 @@ struct case_across {
     struct case_number of; /* an observable's output */
     const char *along;     /* a swept parameter */
     struct case_filter points;
-    bool exact;            /* `exact: true`: values of single runs carry no scatter */
+    bool exact; /* `exact: true`: values of single runs carry no scatter */
     const struct yaml_node *node;
 };
 
@@ -109,8 +109,7 @@ struct case_expect {
 };
 
 struct case_entry {
-    const char *value; /* of the parameter, as written */
-    const struct yaml_node *node;
+    const struct yaml_node *node; /* node->key: the parameter's value as written */
     struct case_expect expect;
 };
 
@@ -196,6 +195,14 @@ const struct yaml_node *case_parameter_find(const struct case_parameter *p, size
 /* The point-th combination of a tier, 0 .. point_count-1, the last axis running
  * fastest: all parameters, swept ones included.  out[0 .. parameter_count+axis_count-1]. */
 void case_point(const struct case_tier *t, size_t point, struct case_parameter *out);
+
+/* The expectation of a point: tables looked up until a number or a prediction
+ * is left; NULL when a table has no entry for it. */
+const struct case_expect *case_expect_find(const struct case_expect *e,
+                                           const struct case_parameter *p, size_t count);
+
+/* A value of a parameter as text: "64", "published", "[0.1;0.2]". */
+const char *case_value_text(struct arena *a, const struct yaml_node *value);
 
 /* How many seeds a point gets; 0 when no rule matches it. */
 size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count);

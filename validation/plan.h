@@ -12,20 +12,20 @@
 #include "validation/case.h"
 
 struct plan_run {
-    const char *id;             /* "graingas.sedimentation.1a2b3c4d" */
-    const char *name;           /* id and seed: "graingas.sedimentation.1a2b3c4d-s1101" */
-    const char *run_file;       /* in DIR/runs: ID.yaml, or NAME.yaml where it has a start */
+    const char *id;       /* "graingas.sedimentation.1a2b3c4d" */
+    const char *name;     /* id and seed: "graingas.sedimentation.1a2b3c4d-s1101" */
+    const char *run_file; /* in DIR/runs: ID.yaml, or NAME.yaml where it has a start */
     const char *case_name, *point;
-    const char *text;           /* of the run file */
-    const char *meaning;        /* the same without comments: what is digested */
+    const char *text;    /* of the run file */
+    const char *meaning; /* the same without comments: what is digested */
     long long seed;
-    struct plan_run *start;     /* complete before this one begins, or NULL */
+    struct plan_run *start; /* complete before this one begins, or NULL */
     double expect_s, limit_s;
-    double bytes;               /* expected size of the result, an estimate */
+    double bytes; /* expected size of the result, an estimate */
 };
 
 struct plan_point {
-    const char *name;           /* "height_l=64,darcy=published", or "single" */
+    const char *name; /* "height_l=64,darcy=published", or "single" */
     size_t parameter_count, run_count;
     const struct case_parameter *parameter;
     struct plan_run *const *run; /* one a seed */
@@ -34,7 +34,7 @@ struct plan_point {
 struct plan_case {
     const struct case_file *file;
     const struct case_tier *tier;
-    const char *skip_reason;    /* not NULL: shown and counted, not run */
+    const char *skip_reason; /* not NULL: shown and counted, not run */
     size_t point_count;
     const struct plan_point *point;
 };
@@ -44,13 +44,13 @@ struct plan {
     enum tier tier;
     size_t case_count, run_count;
     struct plan_case *cases;
-    struct plan_run **run;      /* each run once, after the one that it starts from */
+    struct plan_run **run; /* each run once, after the one that it starts from */
 };
 
 /* A case to be run; `file` is borrowed and must outlive the plan. */
 struct plan_order {
     const struct case_file *file;
-    const char *skip_reason;    /* or NULL */
+    const char *skip_reason; /* or NULL */
 };
 
 /* `all[0 .. all_count-1]`: every case of the folder, for those started from. */

@@ -1,0 +1,298 @@
+/* case_tier.c -- one tier: parameters, sweep, samples, seeds and start, overrides applied. */
+#include "validation/case_read.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_POINTS = 4096, MAX_SAMPLES = 100000, MAX_SEEDS = 100000 };
+
+static const struct schema_field tier_fields[] = {
+    {"parameters", SCHEMA_MAP, false, 0, 0, NULL}, {"sweep", SCHEMA_MAP, false, 0, 0, NULL},
+    {"samples", SCHEMA_ANY, false, 0, 0, NULL},    {"particle_samples", SCHEMA_ANY, false, 0, 0, NULL},
+    {"start", SCHEMA_MAP, false, 0, 0, NULL},      {"seeds", SCHEMA_MAP, false, 0, 0, NULL},
+    {"limit_s", SCHEMA_REAL, false, 0.01, 1e7, NULL},
+    {"expect_s", SCHEMA_REAL, false, 0.001, 1e6, NULL},
+    {"checks", SCHEMA_MAP, false, 0, 0, NULL},
+};
+
+/* A key of the tier, else of the case; NULL where it has the wrong kind. */
+static const struct yaml_node *get(struct case_reader *r, const struct yaml_node *over,
+                                   const char *key) {
+    const struct yaml_node *n = yaml_get(over, key);
+    return n != NULL ? n : yaml_get(r->root, key);
+}
+
+static const struct yaml_node *get_map(const struct yaml_node *from, const char *key) {
+    const struct yaml_node *n = yaml_get(from, key);
+    return n != NULL && n->kind == YAML_MAP ? n : NULL;
+}
+
+/* Text that can stand in a run file and, if swept, in the name of a point. */
+static bool is_value(const struct yaml_node *n, bool swept) {
+    if (n->kind == YAML_MAP)
+        return false;
+    if (n->kind == YAML_LIST) {
+        for (size_t i = 0; i < n->count; i++) {
+            if (n->child[i].kind != YAML_SCALAR || !is_value(&n->child[i], swept))
+                return false;
+        }
+        return true;
+    }
+    for (const char *p = n->text; *p != '\0'; p++) {
+        if ((unsigned char)*p < ' ' || *p == 127 || (swept && strchr(",=;[] '\"\\", *p) != NULL))
+            return false;
+    }
+    return *n->text != '\0';
+}
+
+static void check_parameter(struct case_reader *r, const struct yaml_node *n) {
+    if (strchr(n->key, '/') != NULL || !case_name_is_safe(n->key))
+        case_read_fault(r, n, "%s: not a name of a parameter", n->key);
+    if (!is_value(n, false))
+        case_read_fault(r, n, "%s: must be a value or a list of values", n->key);
+}
+
+static void check_axis(struct case_reader *r, const struct yaml_node *n) {
+    if (strchr(n->key, '/') != NULL || !case_name_is_safe(n->key))
+        case_read_fault(r, n, "%s: not a name of a parameter", n->key);
+    if (n->kind != YAML_LIST || n->count == 0) {
+        case_read_fault(r, n, "%s: a sweep needs a list of values", n->key);
+        return;
+    }
+    for (size_t i = 0; i < n->count; i++) {
+        const struct yaml_node *v = &n->child[i];
+        if (!is_value(v, true))
+            case_read_fault(r, v, "%s: not a value that can be swept", n->key);
+        for (size_t j = 0; j < i && v->kind == YAML_SCALAR; j++) {
+            if (n->child[j].kind == YAML_SCALAR && case_value_equal(v->text, n->child[j].text))
+                case_read_fault(r, v, "%s: %s stands twice in the sweep", n->key, v->text);
+        }
+    }
+}
+
+static void refuse_both(struct case_reader *r, const struct yaml_node *fixed,
+                        const struct yaml_node *swept) {
+    for (size_t i = 0; fixed != NULL && swept != NULL && i < fixed->count; i++) {
+        if (yaml_get(swept, fixed->child[i].key) != NULL)
+            case_read_fault(r, &fixed->child[i], "%s: is fixed and swept at once",
+                            fixed->child[i].key);
+    }
+}
+
+static bool has(const struct yaml_node *map, const char *key) {
+    return map != NULL && yaml_get(map, key) != NULL;
+}
+
+/* The case's fixed parameters that the tier leaves alone, then the tier's own;
+ * the same for the sweep.  A parameter that a tier fixes is swept no more. */
+static void read_parameters(struct case_reader *r, const struct yaml_node *over,
+                            struct case_tier *t) {
+    const struct yaml_node *fixed[] = {get_map(r->root, "parameters"), get_map(over, "parameters")};
+    const struct yaml_node *swept[] = {get_map(r->root, "sweep"), get_map(over, "sweep")};
+    size_t room = 0;
+    for (int level = 0; level < 2; level++) {
+        refuse_both(r, fixed[level], swept[level]);
+        room += fixed[level] == NULL ? 0 : fixed[level]->count;
+        room += swept[level] == NULL ? 0 : swept[level]->count;
+    }
+    struct case_parameter *parameter = case_read_take(r, room, sizeof *parameter);
+    struct case_axis *axis = case_read_take(r, room, sizeof *axis);
+    if (parameter == NULL || axis == NULL)
+        return;
+    t->parameter = parameter;
+    t->axis = axis;
+    for (int level = 0; level < 2; level++) {
+        for (size_t i = 0; fixed[level] != NULL && i < fixed[level]->count; i++) {
+            const struct yaml_node *n = &fixed[level]->child[i];
+            check_parameter(r, n);
+            if (level == 1 || (!has(fixed[1], n->key) && !has(swept[1], n->key)))
+                parameter[t->parameter_count++] = (struct case_parameter){n->key, n};
+        }
+        for (size_t i = 0; swept[level] != NULL && i < swept[level]->count; i++) {
+            const struct yaml_node *n = &swept[level]->child[i];
+            check_axis(r, n);
+            if (level == 0 && has(fixed[1], n->key))
+                continue;
+            if (level == 1 && has(swept[0], n->key))
+                continue; /* stands in the case's place, below */
+            const struct yaml_node *list = level == 0 && has(swept[1], n->key)
+                                               ? yaml_get(swept[1], n->key)
+                                               : n;
+            if (list->kind == YAML_LIST && list->count > 0)
+                axis[t->axis_count++] = (struct case_axis){n->key, list};
+        }
+    }
+}
+
+static void count_points(struct case_reader *r, struct case_tier *t) {
+    t->point_count = 1;
+    for (size_t i = 0; i < t->axis_count; i++) {
+        t->point_count *= t->axis[i].list->count;
+        if (t->point_count > MAX_POINTS) {
+            case_read_fault(r, t->axis[i].list, "sweep: more than %d points", (int)MAX_POINTS);
+            t->point_count = 0;
+            return;
+        }
+    }
+}
+
+static void read_time_range(struct case_reader *r, const struct yaml_node *n,
+                            struct case_samples *out) {
+    static const struct schema_field field[] = {{"from", SCHEMA_REAL, true, 0, 1e12, NULL},
+                                                {"to", SCHEMA_REAL, true, 0, 1e12, NULL},
+                                                {"every", SCHEMA_REAL, true, 1e-12, 1e12, NULL}};
+    double from = 0, to = 0, every = 0;
+    struct fault ignored = FAULT_NONE; /* the schema has told it */
+    if (!case_read_fields(r, n, "range of samples", field, 3))
+        return;
+    yaml_real(yaml_get(n, "from"), &from, &ignored);
+    yaml_real(yaml_get(n, "to"), &to, &ignored);
+    yaml_real(yaml_get(n, "every"), &every, &ignored);
+    double steps = (to - from) / every;
+    if (steps < 0 || fabs(steps - round(steps)) > 1e-6 || steps > MAX_SAMPLES) {
+        case_read_fault(r, n, "%s: from %g to %g is no whole number of steps of %g (at most %d)",
+                        n->key, from, to, every, (int)MAX_SAMPLES);
+        return;
+    }
+    size_t count = (size_t)llround(steps) + 1;
+    double *time = case_read_take(r, count, sizeof *time);
+    for (size_t i = 0; time != NULL && i < count; i++) {
+        char text[32]; /* 3 * 0.1 is meant to be 0.3 */
+        snprintf(text, sizeof text, "%.12g", from + (double)i * every);
+        time[i] = strtod(text, NULL);
+    }
+    out->time = time;
+    out->count = time == NULL ? 0 : count;
+}
+
+static void read_time_list(struct case_reader *r, const struct yaml_node *n,
+                           struct case_samples *out) {
+    double *time = case_read_take(r, n->count, sizeof *time);
+    if (time == NULL)
+        return;
+    for (size_t i = 0; i < n->count; i++) {
+        struct fault found = FAULT_NONE;
+        if (yaml_real(&n->child[i], &time[i], &found) != STATUS_OK)
+            case_read_merge(r, &found);
+        else if (time[i] < 0 || (i > 0 && time[i] <= time[i - 1]))
+            case_read_fault(r, &n->child[i], "%s: times are >= 0 and increase", n->key);
+    }
+    out->time = time;
+    out->count = n->count;
+}
+
+static void read_samples(struct case_reader *r, const struct yaml_node *n,
+                         struct case_samples *out) {
+    *out = (struct case_samples){.node = n};
+    if (n == NULL)
+        return;
+    if (n->kind == YAML_MAP)
+        read_time_range(r, n, out);
+    else if (n->kind == YAML_LIST && n->count > 0)
+        read_time_list(r, n, out);
+    else
+        case_read_fault(r, n, "%s: must be a list of times or {from: , to: , every: }", n->key);
+}
+
+static void read_seed_rule(struct case_reader *r, const struct yaml_node *n,
+                           struct case_seed_rule *out) {
+    static const struct schema_field field[] = {{"points", SCHEMA_MAP, false, 0, 0, NULL},
+                                                {"count", SCHEMA_INTEGER, true, 1, MAX_SEEDS, NULL}};
+    struct fault ignored = FAULT_NONE;
+    long long count = 0;
+    if (!case_read_fields(r, n, "rule for seeds", field, 2))
+        return;
+    yaml_integer(yaml_get(n, "count"), &count, &ignored);
+    out->count = (size_t)count;
+    case_read_filter(r, yaml_get(n, "points"), &out->points);
+}
+
+static void read_seed_count(struct case_reader *r, const struct yaml_node *n,
+                            struct case_seeds *out) {
+    static const struct schema_field field = {"count", SCHEMA_INTEGER, true, 1, MAX_SEEDS, NULL};
+    size_t count = n != NULL && n->kind == YAML_LIST ? n->count : 1;
+    struct case_seed_rule *rule = case_read_take(r, count, sizeof *rule);
+    if (rule == NULL)
+        return;
+    out->rule = rule;
+    out->rule_count = count;
+    if (n == NULL) {
+        rule[0].count = 1;
+    } else if (n->kind == YAML_LIST) {
+        for (size_t i = 0; i < count; i++)
+            read_seed_rule(r, &n->child[i], &rule[i]);
+    } else {
+        struct fault found = FAULT_NONE;
+        long long value = 1;
+        if (schema_check_value(n, &field, &found) == STATUS_OK)
+            yaml_integer(n, &value, &found);
+        case_read_merge(r, &found);
+        rule[0].count = (size_t)value;
+    }
+}
+
+/* `first` and `count` are overridden one by one. */
+static void read_seeds(struct case_reader *r, const struct yaml_node *over,
+                       struct case_seeds *out) {
+    static const struct schema_field field[] = {{"first", SCHEMA_INTEGER, false, 0, 1e15, NULL},
+                                                {"count", SCHEMA_ANY, false, 0, 0, NULL}};
+    const struct yaml_node *first = NULL, *count = NULL;
+    const struct yaml_node *level[] = {get_map(r->root, "seeds"), get_map(over, "seeds")};
+    for (int i = 0; i < 2; i++) {
+        if (level[i] == NULL)
+            continue;
+        case_read_fields(r, level[i], "choice of seeds", field, 2);
+        first = has(level[i], "first") ? yaml_get(level[i], "first") : first;
+        count = has(level[i], "count") ? yaml_get(level[i], "count") : count;
+    }
+    out->first = 1;
+    struct fault ignored = FAULT_NONE; /* the schema has told it */
+    if (first != NULL)
+        yaml_integer(first, &out->first, &ignored);
+    read_seed_count(r, count, out);
+}
+
+static void read_start(struct case_reader *r, const struct yaml_node *n, struct case_start *out) {
+    static const struct schema_field field[] = {{"case", SCHEMA_TEXT, true, 0, 0, NULL},
+                                                {"point", SCHEMA_MAP, false, 0, 0, NULL}};
+    if (n == NULL || n->kind != YAML_MAP || !case_read_fields(r, n, "start", field, 2))
+        return;
+    out->node = n;
+    out->case_name = yaml_get(n, "case")->text;
+    out->point = yaml_get(n, "point");
+    if (!case_name_is_safe(out->case_name))
+        case_read_fault(r, yaml_get(n, "case"), "case: %s is no name of a case", out->case_name);
+    for (size_t i = 0; out->point != NULL && i < out->point->count; i++) {
+        if (out->point->child[i].kind != YAML_SCALAR)
+            case_read_fault(r, &out->point->child[i], "%s: must be one value",
+                            out->point->child[i].key);
+    }
+}
+
+static void read_limits(struct case_reader *r, const struct yaml_node *over, struct case_tier *t) {
+    struct fault ignored = FAULT_NONE; /* the schema has told it */
+    const struct yaml_node *expect = get(r, over, "expect_s"), *limit = get(r, over, "limit_s");
+    if (expect != NULL)
+        yaml_real(expect, &t->expect_s, &ignored);
+    if (yaml_get(over, "expect_s") != NULL)
+        limit = yaml_get(over, "limit_s"); /* the case's limit was for its own expectation */
+    t->limit_s = 10 * t->expect_s;
+    if (limit != NULL)
+        yaml_real(limit, &t->limit_s, &ignored);
+    if (t->limit_s < t->expect_s)
+        case_read_fault(r, limit, "limit_s: %g is less than expect_s, %g", t->limit_s, t->expect_s);
+}
+
+void case_read_tier(struct case_reader *r, enum tier tier, const struct yaml_node *over) {
+    struct case_tier *t = &r->c->tier[tier];
+    case_read_fields(r, over, "tier", tier_fields, sizeof tier_fields / sizeof *tier_fields);
+    read_parameters(r, over, t);
+    count_points(r, t);
+    read_samples(r, get(r, over, "samples"), &t->samples);
+    read_samples(r, get(r, over, "particle_samples"), &t->particle_samples);
+    read_seeds(r, over, &t->seeds);
+    read_start(r, get(r, over, "start"), &t->start);
+    read_limits(r, over, t);
+}

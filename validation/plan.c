@@ -1,0 +1,269 @@
+#include "validation/plan.h"
+
+#include "common/digest.h"
+#include "validation/plan_text.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { MAX_CHAIN = 8, MAX_RUNS = 100000 };
+
+struct planner {
+    struct plan *plan;
+    const struct case_file *const *all;
+    size_t all_count;
+    long long seed_offset;
+    struct fault *fault;
+};
+
+/* One point of one case, on the way to its runs. */
+struct place {
+    const struct case_file *file;
+    const struct case_tier *tier;
+    const char *point;
+    const struct case_parameter *parameter;
+    size_t count;
+};
+
+static enum status no_memory(struct planner *pl) {
+    return fault_set(pl->fault, STATUS_NO_MEMORY, "plan: out of memory");
+}
+
+static const char *name_point(struct arena *a, const struct case_tier *t,
+                              const struct case_parameter *parameter) {
+    const char *name = t->axis_count == 0 ? "single" : "";
+    for (size_t i = 0; i < t->axis_count && name != NULL; i++) {
+        const struct case_parameter *p = &parameter[t->parameter_count + i];
+        const char *value = case_value_text(a, p->value);
+        name = value == NULL ? NULL
+                             : arena_text(a, "%s%s%s=%s", name, i == 0 ? "" : ",", p->name, value);
+    }
+    return name;
+}
+
+static enum status fill_place(struct planner *pl, const struct case_file *file, size_t point,
+                              struct place *out) {
+    const struct case_tier *t = &file->tier[pl->plan->tier];
+    size_t count = t->parameter_count + t->axis_count;
+    struct case_parameter *p = arena_take(&pl->plan->arena, count, sizeof *p);
+    if (p == NULL)
+        return no_memory(pl);
+    case_point(t, point, p);
+    *out = (struct place){file, t, name_point(&pl->plan->arena, t, p), p, count};
+    return out->point == NULL ? no_memory(pl) : STATUS_OK;
+}
+
+static const struct case_file *find_case(const struct planner *pl, const char *name) {
+    for (size_t i = 0; i < pl->all_count; i++) {
+        if (strcmp(pl->all[i]->name, name) == 0)
+            return pl->all[i];
+    }
+    return NULL;
+}
+
+/* The value that a swept parameter of the case started from must have. */
+static const char *wanted_value(const struct place *from, const char *name) {
+    const struct yaml_node *said =
+        from->tier->start.point == NULL ? NULL : yaml_get(from->tier->start.point, name);
+    const struct yaml_node *own =
+        said != NULL ? said : case_parameter_find(from->parameter, from->count, name);
+    return own != NULL && own->kind == YAML_SCALAR ? own->text : NULL;
+}
+
+static bool is_wanted(const struct place *from, const struct place *candidate) {
+    const struct case_tier *t = candidate->tier;
+    for (size_t i = 0; i < t->axis_count; i++) {
+        const struct case_parameter *p = &candidate->parameter[t->parameter_count + i];
+        const char *wanted = wanted_value(from, p->name);
+        if (wanted == NULL || p->value->kind != YAML_SCALAR ||
+            !case_value_equal(wanted, p->value->text))
+            return false;
+    }
+    return true;
+}
+
+static enum status check_start_names(struct planner *pl, const struct case_start *start,
+                                     const struct case_tier *t) {
+    for (size_t i = 0; start->point != NULL && i < start->point->count; i++) {
+        const struct yaml_node *n = &start->point->child[i];
+        bool swept = false;
+        for (size_t k = 0; k < t->axis_count; k++)
+            swept |= strcmp(t->axis[k].name, n->key) == 0;
+        if (!swept)
+            return yaml_fault(n, pl->fault, "start: %s does not sweep %s", start->case_name,
+                              n->key);
+    }
+    return STATUS_OK;
+}
+
+/* The point of another case that `from` starts from. */
+static enum status find_start(struct planner *pl, const struct place *from, struct place *out) {
+    const struct case_start *start = &from->tier->start;
+    const struct case_file *file = find_case(pl, start->case_name);
+    const char *tier = case_tier_name(pl->plan->tier);
+    if (file == NULL)
+        return yaml_fault(start->node, pl->fault, "start: no case %s", start->case_name);
+    const struct case_tier *t = &file->tier[pl->plan->tier];
+    if (!t->present)
+        return yaml_fault(start->node, pl->fault, "start: case %s has no tier %s",
+                          start->case_name, tier);
+    enum status status = check_start_names(pl, start, t);
+    for (size_t i = 0; status == STATUS_OK && i < t->point_count; i++) {
+        status = fill_place(pl, file, i, out);
+        if (status == STATUS_OK && is_wanted(from, out))
+            return STATUS_OK;
+    }
+    if (status != STATUS_OK)
+        return status;
+    return yaml_fault(start->node, pl->fault, "start: no point of %s in tier %s is meant by %s",
+                      start->case_name, tier, from->point);
+}
+
+static enum status name_run(struct planner *pl, const struct place *at, struct plan_run *run) {
+    struct arena *a = &pl->plan->arena;
+    char *id = arena_text(a, "%s.", at->file->name);
+    if (id == NULL)
+        return no_memory(pl);
+    for (char *p = id; *p != '\0'; p++)
+        *p = *p == '/' ? '.' : *p;
+    const char *identity = plan_text_identity(a, at->file, at->tier, at->parameter, at->count,
+                                              run->start == NULL ? NULL : run->start->id);
+    if (identity == NULL)
+        return no_memory(pl);
+    struct digest d;
+    digest_bytes(identity, strlen(identity), &d);
+    run->id = arena_text(a, "%s%.8s", id, d.hex);
+    run->name = arena_text(a, "%s-s%lld", run->id, run->seed);
+    run->run_file = arena_text(a, "%s.yaml", run->start == NULL ? run->id : run->name);
+    return run->id == NULL || run->name == NULL || run->run_file == NULL ? no_memory(pl)
+                                                                         : STATUS_OK;
+}
+
+static enum status describe_run(struct planner *pl, const struct place *at, struct plan_run *run) {
+    struct arena *a = &pl->plan->arena;
+    const char *start =
+        run->start == NULL ? NULL : arena_text(a, "../h5/%s.h5", run->start->name);
+    struct plan_text_input in = {at->file, at->tier, at->point, at->parameter, at->count, start};
+    run->case_name = at->file->name;
+    run->point = at->point;
+    run->text = plan_text(a, &in, true);
+    run->meaning = plan_text(a, &in, false);
+    run->expect_s = at->tier->expect_s;
+    run->limit_s = at->tier->limit_s;
+    run->bytes = plan_text_bytes(&in);
+    return run->text == NULL || run->meaning == NULL ? no_memory(pl) : STATUS_OK;
+}
+
+static struct plan_run *find_run(const struct plan *p, const char *name) {
+    for (size_t i = 0; i < p->run_count; i++) {
+        if (strcmp(p->run[i]->name, name) == 0)
+            return p->run[i];
+    }
+    return NULL;
+}
+
+static enum status add_run(struct planner *pl, struct plan_run *run) {
+    struct plan *p = pl->plan;
+    if (p->run_count >= MAX_RUNS)
+        return fault_set(pl->fault, STATUS_BAD_INPUT, "plan: more than %d runs", (int)MAX_RUNS);
+    struct plan_run **wider = arena_grow(&p->arena, p->run, p->run_count, sizeof *wider);
+    if (wider == NULL)
+        return no_memory(pl);
+    p->run = wider;
+    p->run[p->run_count++] = run;
+    return STATUS_OK;
+}
+
+/* The run of a place and a seed, with all that it starts from: each once. */
+static enum status get_run(struct planner *pl, const struct place *at, long long seed, int chain,
+                           struct plan_run **out) {
+    struct plan_run *run = arena_take(&pl->plan->arena, 1, sizeof *run);
+    if (run == NULL)
+        return no_memory(pl);
+    if (chain > MAX_CHAIN)
+        return yaml_fault(at->tier->start.node, pl->fault,
+                          "start: more than %d cases start from each other", (int)MAX_CHAIN);
+    run->seed = seed;
+    enum status status = STATUS_OK;
+    if (at->tier->start.case_name != NULL) {
+        struct place start;
+        status = find_start(pl, at, &start);
+        if (status == STATUS_OK)
+            status = get_run(pl, &start, seed, chain + 1, &run->start);
+    }
+    if (status == STATUS_OK)
+        status = name_run(pl, at, run);
+    if (status != STATUS_OK)
+        return status;
+    *out = find_run(pl->plan, run->name);
+    if (*out != NULL)
+        return STATUS_OK;
+    *out = run;
+    status = describe_run(pl, at, run);
+    return status == STATUS_OK ? add_run(pl, run) : status;
+}
+
+static enum status plan_point(struct planner *pl, const struct case_file *file, size_t index,
+                              struct plan_point *out) {
+    struct place at;
+    enum status status = fill_place(pl, file, index, &at);
+    if (status != STATUS_OK)
+        return status;
+    const struct case_seeds *seeds = &at.tier->seeds;
+    size_t count = case_seed_count(seeds, at.parameter, at.count);
+    struct plan_run **run = arena_take(&pl->plan->arena, count, sizeof *run);
+    if (run == NULL)
+        return no_memory(pl);
+    *out = (struct plan_point){at.point, at.count, count, at.parameter, run};
+    for (size_t i = 0; status == STATUS_OK && i < count; i++)
+        status = get_run(pl, &at, seeds->first + pl->seed_offset + (long long)i, 0, &run[i]);
+    return status;
+}
+
+static enum status plan_case(struct planner *pl, const struct plan_order *order,
+                             struct plan_case *out) {
+    const struct case_tier *t = &order->file->tier[pl->plan->tier];
+    *out = (struct plan_case){.file = order->file, .tier = t, .skip_reason = order->skip_reason};
+    if (order->skip_reason != NULL)
+        return STATUS_OK;
+    if (!t->present)
+        return fault_set(pl->fault, STATUS_BAD_INPUT, "case %s: has no tier %s", order->file->name,
+                         case_tier_name(pl->plan->tier));
+    struct plan_point *point = arena_take(&pl->plan->arena, t->point_count, sizeof *point);
+    if (point == NULL)
+        return no_memory(pl);
+    out->point = point;
+    out->point_count = t->point_count;
+    enum status status = STATUS_OK;
+    for (size_t i = 0; status == STATUS_OK && i < t->point_count; i++)
+        status = plan_point(pl, order->file, i, &point[i]);
+    return status;
+}
+
+enum status plan_make(const struct plan_order *order, size_t count,
+                      const struct case_file *const *all, size_t all_count, enum tier tier,
+                      long long seed_offset, struct plan **out, struct fault *fault) {
+    *out = NULL;
+    struct plan *p = calloc(1, sizeof *p);
+    if (p == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "plan: out of memory");
+    p->tier = tier;
+    p->cases = arena_take(&p->arena, count, sizeof *p->cases);
+    struct planner pl = {p, all, all_count, seed_offset, fault};
+    enum status status = p->cases == NULL ? no_memory(&pl) : STATUS_OK;
+    for (; status == STATUS_OK && p->case_count < count; p->case_count++)
+        status = plan_case(&pl, &order[p->case_count], &p->cases[p->case_count]);
+    if (status != STATUS_OK) {
+        plan_free(p);
+        return status;
+    }
+    *out = p;
+    return STATUS_OK;
+}
+
+void plan_free(struct plan *p) {
+    if (p == NULL)
+        return;
+    arena_free(&p->arena);
+    free(p);
+}
