@@ -109,7 +109,10 @@ struct report_count {
 };
 struct report_count report_tally(const struct report *r);
 enum verdict report_verdict(const struct report *r); /* fail before inconclusive before pass */
-/* The tightest passed or worst failed row: largest |measured-expected|/tolerance; NULL if none. */
+/* Share of the tolerance that a row uses up: |measured-expected|/tolerance for "within", its
+ * like for the one-sided comparisons (report.c); 1 is the limit, NaN where nothing was measured. */
+double report_margin_used(const struct report_row *row);
+/* The worst failed row, else the tightest other one: largest margin used; NULL if none. */
 const struct report_row *report_worst(const struct report *r);
 const char *verdict_name(enum verdict v); /* "pass", "fail", "inconclusive" */
 
@@ -117,7 +120,8 @@ const char *verdict_name(enum verdict v); /* "pass", "fail", "inconclusive" */
 enum status report_write_json(const struct report *r, const char *path, struct fault *fault);
 enum status report_write_junit(const struct report *r, const char *path, struct fault *fault);
 enum status report_write_markdown(const struct report *r, const char *path, struct fault *fault);
-/* folder/index.html, self-contained, and folder/NAME.png full-size pictures beside it. */
+/* folder/index.html, self-contained, and folder/CASE.NAME.png full-size pictures beside it
+ * ('/' in the case's name becomes '.'). */
 enum status report_write_html(const struct report *r, const char *folder, struct fault *fault);
 
 #endif

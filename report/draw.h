@@ -1,0 +1,41 @@
+/* draw.h -- figures and grain pictures as bytes, drawn by gnuplot.
+ *
+ * Figures are SVG to stand inline in a page: panels above each other with one
+ * x axis, common margins, the key above all data.  A measured point is never
+ * cut off: limits given for an axis are widened to hold it.  The background is
+ * white, on dark pages too.
+ *
+ * Grain pictures are palette PNG by gnuplot's gd terminal: discs have their
+ * true radii and equal axes.  They are drawn at twice the size they are shown
+ * at, and the browser's scaling smooths their edges.
+ */
+#ifndef REPORT_DRAW_H
+#define REPORT_DRAW_H
+
+#include "report/report.h"
+#include "report/sheet.h"
+
+/* An <svg> element in svg->text; every id in it begins with prefix, so that
+ * figures of different prefixes can share a page.  On success sheet_free it. */
+enum status draw_figure(const struct report_figure *f, const char *prefix, struct sheet *svg,
+                        struct fault *fault);
+
+/* Make gnuplot's SVG file one element of a page: title and alternative text for
+ * screen readers, ids with the prefix, nothing of gnuplot's own head. */
+enum status draw_embed_svg(const char *file, const struct report_figure *f, const char *prefix,
+                           struct sheet *svg, struct fault *fault);
+
+enum { DRAW_INLINE_PX_PER_L = 12, DRAW_FULL_PX_PER_L = 24, DRAW_MAX_PX = 8000 };
+
+struct drawing {
+    char *bytes; /* bytes[0 .. length-1], a PNG file; free() it */
+    size_t length;
+    int width_px, height_px;
+};
+
+/* At least px_per_l pixels a lattice constant, more for small boxes, fewer only
+ * where the picture would be wider or higher than DRAW_MAX_PX. */
+enum status draw_picture(const struct report_picture *p, double px_per_l, struct drawing *out,
+                         struct fault *fault);
+
+#endif

@@ -1,0 +1,44 @@
+/* html.h -- the parts of the page; only html*.c include this.
+ *
+ * One file that needs nothing else: style, figures (SVG) and pictures (PNG)
+ * stand in it; no script, no network (a content policy forbids both).  Every
+ * foreign text passes escape_markup.  A verdict is always colour, symbol and
+ * word.  Wide tables and figures scroll in boxes of their own, so that the page
+ * itself never does.
+ */
+#ifndef REPORT_HTML_H
+#define REPORT_HTML_H
+
+#include "report/report.h"
+
+#include <stdio.h>
+
+struct page {
+    FILE *out;
+    const struct report *report;
+    const char *folder; /* full-size pictures go here */
+    size_t figures;     /* drawn so far: numbers their ids */
+};
+
+/* before and after are markup of ours; text is foreign and escaped. */
+void html_text(struct page *p, const char *before, const char *text, const char *after);
+
+/* html.c: `<span class="verdict pass">...` */
+void html_verdict(struct page *p, enum verdict verdict);
+enum verdict html_case_verdict(const struct report_case *c);
+
+/* An attribute's value: "case-NAME", "check-NAME-row". */
+void html_case_id(struct page *p, const struct report_case *c);
+void html_row_id(struct page *p, const struct report_case *c, size_t row);
+
+/* A command to be copied, or a log: preformatted, scrolls in its box. */
+void html_pre(struct page *p, const char *text);
+
+const char *html_style(void);       /* html_style.c */
+void html_overview(struct page *p); /* html_overview.c */
+enum status html_case(struct page *p, const struct report_case *c, struct fault *fault);
+void html_rows(struct page *p, const struct report_case *c);    /* html_rows.c */
+void html_margin(struct page *p, const struct report_row *row); /* html_rows.c */
+enum status html_media(struct page *p, const struct report_case *c, struct fault *fault);
+
+#endif

@@ -1,0 +1,137 @@
+/* json_report.c -- results.json: every row as judged, for programs.
+ *
+ *     {"schema": "bedcheck-results 1", "suite", "tier", "solver", "solver_key", "started",
+ *      "modified", "modification", "verdict", "counts": {pass, fail, inconclusive, skipped},
+ *      "checks": [{case, point, check, observable, unit, measured, uncertainty, expected,
+ *                  expected_uncertainty, tolerance, comparison, kind, verdict, because, reason,
+ *                  runs: [id]}],
+ *      "skipped": [{case, reason}],
+ *      "provenance": {name: value}}
+ *
+ * Strict JSON: a number that is none is null, and `reason` then says why.
+ */
+#include "report/report.h"
+#include "report/sheet.h"
+
+#include "common/json.h"
+
+#include <math.h>
+
+static void put_text(struct json *j, const char *key, const char *text) {
+    json_key(j, key);
+    json_text(j, text);
+}
+
+static void put_real(struct json *j, const char *key, double value) {
+    json_key(j, key);
+    json_real(j, value);
+}
+
+static void put_count(struct json *j, const char *key, size_t count) {
+    json_key(j, key);
+    json_integer(j, (long long)count);
+}
+
+/* A null must not stand there unexplained, whatever the judge has said. */
+static const char *reason_of(const struct report_row *row) {
+    if (row->reason && *row->reason)
+        return row->reason;
+    if (!isfinite(row->measured))
+        return "nothing finite was measured";
+    if (!isfinite(row->expected))
+        return "there is no finite expectation";
+    if (!isfinite(row->uncertainty) || !isfinite(row->expected_uncertainty))
+        return "an uncertainty is not known";
+    return isfinite(row->tolerance) ? "" : "there is no finite tolerance";
+}
+
+static void put_row(struct json *j, const struct report_row *row) {
+    json_begin_object(j);
+    put_text(j, "case", row->case_name);
+    put_text(j, "point", row->point);
+    put_text(j, "check", row->check);
+    put_text(j, "observable", row->observable);
+    put_text(j, "unit", row->unit);
+    put_real(j, "measured", row->measured);
+    put_real(j, "uncertainty", row->uncertainty);
+    put_real(j, "expected", row->expected);
+    put_real(j, "expected_uncertainty", row->expected_uncertainty);
+    put_real(j, "tolerance", row->tolerance);
+    put_text(j, "comparison", row->comparison);
+    put_text(j, "kind", row->kind);
+    put_text(j, "verdict", verdict_name(row->verdict));
+    put_text(j, "because", row->because);
+    put_text(j, "reason", reason_of(row));
+    json_key(j, "runs");
+    json_begin_array(j);
+    for (size_t i = 0; i < row->run_count; i++)
+        json_text(j, row->runs[i]);
+    json_end_array(j);
+    json_end_object(j);
+}
+
+static void put_head(struct json *j, const struct report *r) {
+    struct report_count count = report_tally(r);
+    put_text(j, "schema", "bedcheck-results 1");
+    put_text(j, "suite", r->suite);
+    put_text(j, "tier", r->tier);
+    put_text(j, "solver", r->solver);
+    put_text(j, "solver_key", r->solver_key);
+    put_text(j, "started", r->started);
+    json_key(j, "modified");
+    json_boolean(j, r->modified);
+    put_text(j, "modification", r->modified ? r->modification : NULL);
+    put_text(j, "verdict", verdict_name(report_verdict(r)));
+    json_key(j, "counts");
+    json_begin_object(j);
+    put_count(j, "pass", count.pass);
+    put_count(j, "fail", count.fail);
+    put_count(j, "inconclusive", count.inconclusive);
+    put_count(j, "skipped", count.skipped);
+    json_end_object(j);
+}
+
+static void put_skipped(struct json *j, const struct report *r) {
+    json_key(j, "skipped");
+    json_begin_array(j);
+    for (size_t i = 0; i < r->case_count; i++) {
+        if (!r->cases[i].skipped)
+            continue;
+        json_begin_object(j);
+        put_text(j, "case", r->cases[i].name);
+        put_text(j, "reason", r->cases[i].skip_reason);
+        json_end_object(j);
+    }
+    json_end_array(j);
+}
+
+static void put_report(struct json *j, const struct report *r) {
+    json_begin_object(j);
+    put_head(j, r);
+    json_key(j, "checks");
+    json_begin_array(j);
+    for (size_t i = 0; i < r->case_count; i++) {
+        for (size_t k = 0; k < r->cases[i].row_count; k++)
+            put_row(j, &r->cases[i].row[k]);
+    }
+    json_end_array(j);
+    put_skipped(j, r);
+    json_key(j, "provenance");
+    json_begin_object(j);
+    for (size_t i = 0; i < r->fact_count; i++)
+        put_text(j, r->fact[i].name, r->fact[i].value);
+    json_end_object(j);
+    json_end_object(j);
+}
+
+enum status report_write_json(const struct report *r, const char *path, struct fault *fault) {
+    struct sheet sheet;
+    enum status status = sheet_open(&sheet, fault);
+    if (status)
+        return status;
+    struct json j = json_to(sheet.out);
+    put_report(&j, r);
+    status = sheet_save(&sheet, path, fault);
+    sheet_free(&sheet);
+    return status;
+}
