@@ -277,6 +277,7 @@ static void make_foreign(const char *path, enum trick trick) {
     if (trick == NAMED_TYPE) {
         hid_t type = H5Tcopy(H5T_NATIVE_INT);
         ck_assert_int_ge(H5Tcommit2(file, "t", type, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), 0);
+        H5Tclose(type); /* an open object would keep the file open */
     }
     hid_t data =
         H5Dcreate2(file, "x", H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, creation, H5P_DEFAULT);
