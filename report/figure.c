@@ -13,12 +13,14 @@ enum {
     TOP = 14,
     KEY_ROW = 24,
     GAP = 20,
-    BOTTOM = 62,
+    BOTTOM = 68,
     FONT = 15,
     CHARACTER = 8, /* of the key, on average */
     KEY_SAMPLE = 64,
     MAX_PANELS = 3
 };
+
+static const double POINT = .9, SMALL_POINT = .5; /* gnuplot's unit */
 
 struct range {
     double low, high;
@@ -79,7 +81,8 @@ static struct range range_padded(struct range r, bool is_log, double part) {
     double size = fmax(fabs(r.low), fabs(r.high)), pad = part * (r.high - r.low);
     if (r.high - r.low < 1e-6 * size || size == 0)
         pad = size > 0 ? .05 * size : 1;
-    return (struct range){r.low - pad, r.high + pad};
+    bool from_zero = r.low >= 0 && r.low < pad; /* nothing is below 0: no room for it */
+    return (struct range){from_zero ? 0 : r.low - pad, r.high + pad};
 }
 
 static struct range x_range(const struct report_figure *f) {
@@ -147,11 +150,11 @@ static int character_count(const char *text) {
     return count;
 }
 
-static void put_style(FILE *out, const struct report_series *s) {
+static void put_style(FILE *out, const struct report_series *s, double size) {
     const char *colour = colour_of(s->colour);
     switch (s->style) {
     case SERIES_POINTS:
-        fprintf(out, "points pt %d ps .9 lc rgb '%s'", shape_of(s->colour), colour);
+        fprintf(out, "points pt %d ps %.2g lc rgb '%s'", shape_of(s->colour), size, colour);
         break;
     case SERIES_LINE:
         fprintf(out, "lines lw 2 lc rgb '%s'", colour);
@@ -160,7 +163,8 @@ static void put_style(FILE *out, const struct report_series *s) {
         fprintf(out, "lines lw 2 dt (9,6) lc rgb '%s'", colour);
         break;
     case SERIES_LINE_POINTS:
-        fprintf(out, "linespoints lw 1.5 pt %d ps .9 lc rgb '%s'", shape_of(s->colour), colour);
+        fprintf(out, "linespoints lw 1.5 pt %d ps %.2g lc rgb '%s'", shape_of(s->colour), size,
+                colour);
         break;
     }
 }
@@ -171,7 +175,7 @@ static void put_key_entries(FILE *out, const struct report_figure *f) {
             if (!is_first_of_its_kind(f, p, k))
                 continue;
             fprintf(out, ", keyentry with ");
-            put_style(out, &f->panel[p].series[k]);
+            put_style(out, &f->panel[p].series[k], POINT);
             fprintf(out, " title ");
             gnuplot_put_text(out, f->panel[p].series[k].label);
         }
@@ -179,7 +183,7 @@ static void put_key_entries(FILE *out, const struct report_figure *f) {
 }
 
 static struct layout lay_out(const struct report_figure *f) {
-    static const double tall[MAX_PANELS] = {360, 300, 270}, low = 130;
+    static const double tall[MAX_PANELS] = {360, 300, 270}, low = 150;
     struct layout l = {0};
     int longest = 1;
     for (size_t p = 0; p < f->panel_count; p++) {
@@ -243,7 +247,7 @@ static void put_axis(FILE *out, char axis, bool is_log, struct range r, const ch
     }
     fprintf(out, "set %crange [%.12g:%.12g]\nset %clabel ", axis, r.low, r.high, axis);
     gnuplot_put_text(out, label);
-    fprintf(out, " noenhanced\n");
+    fprintf(out, " noenhanced%s\n", axis == 'x' ? " offset 0,.6" : "");
 }
 
 /* -- data ------------------------------------------------------------------- */
@@ -269,19 +273,23 @@ static void put_data(FILE *out, const struct report_figure *f, size_t panel, str
     }
 }
 
-/* Uncertainty: a band around a line, bars on points. */
+/* Uncertainty: a band around a line, bars on points.  A low panel has smaller points, so that
+ * short bars are seen. */
 static void put_series(FILE *out, const struct report_series *s, size_t panel, size_t k) {
+    double size = panel == 0 ? POINT : SMALL_POINT;
+    const char *colour = colour_of(s->colour);
     if (s->error && !has_points(s))
         fprintf(out,
                 ", $data_%zu_%zu using 1:3:4 with filledcurves fc rgb '%s' fs transparent solid .2 "
                 "noborder notitle",
-                panel, k, colour_of(s->colour));
+                panel, k, colour);
     if (s->error && has_points(s))
         fprintf(out,
-                ", $data_%zu_%zu using 1:2:3:4 with yerrorbars lw 1.5 pt 0 lc rgb '%s' notitle",
-                panel, k, colour_of(s->colour));
+                ", $data_%zu_%zu using 1:2:3:4 with yerrorbars lw 1.5 pt %d ps %.2g lc rgb '%s' "
+                "notitle",
+                panel, k, shape_of(s->colour), size, colour);
     fprintf(out, ", $data_%zu_%zu using 1:2 with ", panel, k);
-    put_style(out, s);
+    put_style(out, s, size);
     fprintf(out, " notitle");
 }
 
@@ -319,7 +327,8 @@ static void put_script(FILE *out, const struct report_figure *f) {
     fprintf(out, "set terminal svg size %d,%.0f font 'sans-serif,%d' background '#ffffff'\n", WIDTH,
             l.height, FONT);
     fprintf(out,
-            "set encoding utf8\nset border 3 lw 1 lc rgb '#444444'\nset tics out nomirror\n"
+            "set encoding utf8\nset border 3 lw 1 lc rgb '#444444'\nset tics out nomirror scale "
+            ".5\nset errorbars 1.3\n"
             "set grid lw .7 lc rgb '#dddddd'\nset key at screen .5,%.6f center top horizontal "
             "Left reverse noenhanced samplen 2.5 spacing 1.2 maxcols %d\n",
             1 - (TOP - 6) / l.height, l.key_columns);

@@ -67,8 +67,8 @@ enum status draw_embed_svg(const char *file, const struct report_figure *f, cons
     fprintf(svg->out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" "
             "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"%.*s\" role=\"img\" "
-            "aria-labelledby=\"%stitle %sdesc\">\n<title id=\"%stitle\">",
-            (int)box_length, box, prefix, prefix, prefix);
+            "aria-describedby=\"%sdesc\">\n<title>",
+            (int)box_length, box, prefix);
     escape_markup(svg->out, f->title);
     fprintf(svg->out, "</title>\n<desc id=\"%sdesc\">", prefix);
     escape_markup(svg->out, f->alt);

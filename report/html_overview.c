@@ -70,14 +70,17 @@ static void put_worst(struct page *p) {
     fprintf(p->out, "<p class=\"worst\">%s: ",
             row->verdict == VERDICT_FAIL ? "Worst failure" : "Tightest margin");
     if (isnan(used))
-        fprintf(p->out, "<strong>no number</strong>, in <a href=\"#");
+        fprintf(p->out, "nothing measured by <a href=\"#");
     else
-        fprintf(p->out, "<strong>%s</strong> of its tolerance used, by <a href=\"#",
+        fprintf(p->out, "<strong>%s</strong> of its tolerance used by <a href=\"#",
                 words_margin(used).text);
     html_row_id(p, c, index);
     html_text(p, "\">", row->case_name, ", ");
     html_text(p, "", row->check, row->point && *row->point ? ", " : "");
-    html_text(p, "", row->point, "</a>.</p>\n");
+    html_text(p, "", row->point, "</a>");
+    if (row->verdict != VERDICT_PASS)
+        html_text(p, ": ", row->reason, "");
+    fprintf(p->out, "</p>\n");
 }
 
 static void put_skipped(struct page *p) {
@@ -99,13 +102,13 @@ static void put_skipped(struct page *p) {
 static void put_fact(struct page *p, const char *name, const char *value) {
     if (!value || !*value)
         return;
-    html_text(p, "<div><dt>", name, "</dt>");
-    html_text(p, "<dd>", value, "</dd></div>\n");
+    html_text(p, "<li><b>", name, "</b> ");
+    html_text(p, "", value, "</li>\n");
 }
 
 static void put_facts(struct page *p) {
     const struct report *r = p->report;
-    fprintf(p->out, "<h2 class=\"quiet\">Where it comes from</h2>\n<dl class=\"facts\">\n");
+    fprintf(p->out, "<h2 class=\"quiet\">Where it comes from</h2>\n<ul class=\"facts\">\n");
     put_fact(p, "suite", r->suite);
     put_fact(p, "tier", r->tier);
     put_fact(p, "started", r->started);
@@ -113,7 +116,7 @@ static void put_facts(struct page *p) {
     put_fact(p, "solver key", r->solver_key);
     for (size_t i = 0; i < r->fact_count; i++)
         put_fact(p, r->fact[i].name, r->fact[i].value);
-    fprintf(p->out, "</dl>\n");
+    fprintf(p->out, "</ul>\n");
 }
 
 static void put_symbols(struct page *p, const struct report_case *c) {

@@ -9,7 +9,7 @@
 #include "report/sheet.h"
 #include "report/words.h"
 
-#include <string.h>
+#include <math.h>
 
 enum { DETAIL_LIMIT = 600 * 1000, SIZE_LIMIT = 980 * 1000, ONE_ROW_LIMIT = 60 * 1000 };
 
@@ -121,7 +121,11 @@ static void put_worst(FILE *out, const struct report *r) {
     const struct report_row *worst = report_worst(r);
     if (!worst)
         return;
-    fprintf(out, "\nWorst margin: %s used, ", words_margin(report_margin_used(worst)).text);
+    double used = report_margin_used(worst);
+    if (isnan(used))
+        fprintf(out, "\nWorst: no number from ");
+    else
+        fprintf(out, "\nWorst margin: %s of its tolerance used by ", words_margin(used).text);
     escape_markdown(out, worst->case_name);
     fprintf(out, ", ");
     escape_markdown(out, worst->check);

@@ -21,10 +21,10 @@ static struct frame frame_of(const struct report_picture *p, double px_per_l) {
     struct frame f = {.scale = fmax(px_per_l, least / longest)};
     f.scale = fmin(f.scale, .9 * DRAW_MAX_PX / longest);
     /* text grows with the picture: both are shown at the same size in the end */
-    double em = fmin(1.3 * px_per_l + 5, 40);
+    double em = fmin(2.2 * px_per_l + 4, 60);
     f.font = (int)lround(em * .75);
     f.left = (int)lround(4.5 * em);
-    f.right = (int)lround((p->shade ? 8.5 : 1.5) * em);
+    f.right = (int)lround((p->shade ? 8 : 1.5) * em);
     f.top = (int)lround(em);
     f.bottom = (int)lround(4.2 * em);
     f.width = (int)lround(p->width * f.scale) + f.left + f.right;

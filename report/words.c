@@ -95,7 +95,7 @@ static bool compares(const struct report_row *row, const char *how) {
 }
 
 struct words words_tolerance(const struct report_row *row) {
-    struct words t = words_number(row->tolerance);
+    struct words t = with_digits(row->tolerance, 3);
     if (isnan(row->tolerance))
         return say("–");
     if (compares(row, "at most"))
@@ -105,11 +105,18 @@ struct words words_tolerance(const struct report_row *row) {
     return say("± %s", t.text);
 }
 
+/* A limit to a hundredth of the tolerance: more digits would pretend. */
+static struct words limit(double value, double tolerance) {
+    if (tolerance <= 0 || !is_fixed(fabs(value)) || !is_fixed(tolerance))
+        return words_exact(value);
+    return say("%.*f", between(0, 2 - decade_of(tolerance), 15), value);
+}
+
 struct words words_accepted(const struct report_row *row) {
     double e = row->expected, t = row->tolerance;
     if (isnan(e) || isnan(t))
         return say("–");
-    struct words low = words_exact(e - t), high = words_exact(e + t);
+    struct words low = limit(e - t, t), high = limit(e + t, t);
     if (compares(row, "at most"))
         return say("≤ %s", high.text);
     if (compares(row, "at least"))
@@ -126,7 +133,7 @@ struct words words_margin(double used) {
         return say("over 1000 %%");
     if (used > 0 && used < .001)
         return say("under 0.1 %%");
-    return say("%.*f %%", used < .0995 ? 1 : 0, 100 * used);
+    return say("%.*f %%", used > 0 && used < .0995 ? 1 : 0, 100 * used);
 }
 
 struct words words_seconds(double seconds) {
