@@ -45,8 +45,8 @@ double closure_settling_speed_eq20(double solid_fraction) {
 
 /* -- relaxation of the pressure --------------------------------------------- */
 
-double closure_diffusivity(enum closure_law law, double solid_fraction,
-                           double solid_fraction_min, double peclet) {
+double closure_diffusivity(enum closure_law law, double solid_fraction, double solid_fraction_min,
+                           double peclet) {
     double rho = closure_clip(solid_fraction, solid_fraction_min);
     return closure_conductivity(law, rho, solid_fraction_min) / ((1 - rho) * peclet);
 }
@@ -56,8 +56,7 @@ double closure_mode_square(double mode_x, double mode_y, double width_l, double 
     return kx * kx + ky * ky;
 }
 
-double closure_mode_square_lattice(double mode_x, double mode_y, double width_l,
-                                   double height_l) {
+double closure_mode_square_lattice(double mode_x, double mode_y, double width_l, double height_l) {
     double sx = 2 * sin(M_PI * mode_x / (2 * width_l));
     double sy = 2 * sin(M_PI * mode_y / (2 * height_l));
     return sx * sx + sy * sy;

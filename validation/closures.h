@@ -33,8 +33,7 @@ enum closure_face { CLOSURE_ARITHMETIC, CLOSURE_HARMONIC, CLOSURE_OF_MEAN };
 double closure_clip(double solid_fraction, double solid_fraction_min);
 
 /* K (1), clipped. */
-double closure_conductivity(enum closure_law law, double solid_fraction,
-                            double solid_fraction_min);
+double closure_conductivity(enum closure_law law, double solid_fraction, double solid_fraction_min);
 
 /* K of the face between two sites. */
 double closure_face_conductivity(enum closure_law law, enum closure_face rule, double a, double b,
@@ -48,13 +47,12 @@ double closure_settling_speed(enum closure_law law, double solid_fraction,
 double closure_settling_speed_eq20(double solid_fraction);
 
 /* Gas diffusivity of Eq. 8 (l^2/tau): K/(phi Pe), phi = 1 - rho. */
-double closure_diffusivity(enum closure_law law, double solid_fraction,
-                           double solid_fraction_min, double peclet);
+double closure_diffusivity(enum closure_law law, double solid_fraction, double solid_fraction_min,
+                           double peclet);
 /* (pi mx/W)^2 + (pi my/H)^2 (1/l^2), and what a five-point Laplacian of mesh 1 l
  * makes of it: 4 sin^2(pi mx/2W) + 4 sin^2(pi my/2H). */
 double closure_mode_square(double mode_x, double mode_y, double width_l, double height_l);
-double closure_mode_square_lattice(double mode_x, double mode_y, double width_l,
-                                   double height_l);
+double closure_mode_square_lattice(double mode_x, double mode_y, double width_l, double height_l);
 
 /* Compressibility factor p/(n k T) of elastic hard discs at an area fraction below .7. */
 double closure_disc_compressibility(double area_fraction);
@@ -66,8 +64,8 @@ double closure_disc_stiffness(double area_fraction);
 double closure_site_volume(size_t i, size_t j, size_t nx, size_t ny);
 
 struct closure_halo {
-    size_t site[4];    /* indices j*nx + i */
-    double weight[4];  /* sum to 1 */
+    size_t site[4];   /* indices j*nx + i */
+    double weight[4]; /* sum to 1 */
 };
 /* The four sites around (x, y), which must lie in the box [0, nx-1] x [0, ny-1]. */
 struct closure_halo closure_halo_at(double x, double y, size_t nx, size_t ny);

@@ -29,11 +29,11 @@ enum status observe_box(struct run_view *v, struct observe_box *out, struct faul
 
 struct observe_grains {
     size_t count, frames;
-    const double *time;           /* time[0 .. frames-1] (tau) */
-    const double *radius;         /* radius[0 .. count-1] (l) */
-    const double *position;       /* position[(frame*count + grain)*2 + axis] (l) */
-    const double *velocity;       /* the same (U0); NULL when not asked for */
-    const struct series *series;  /* of the positions */
+    const double *time;          /* time[0 .. frames-1] (tau) */
+    const double *radius;        /* radius[0 .. count-1] (l) */
+    const double *position;      /* position[(frame*count + grain)*2 + axis] (l) */
+    const double *velocity;      /* the same (U0); NULL when not asked for */
+    const struct series *series; /* of the positions */
 };
 enum status observe_grains(struct run_view *v, bool velocity, struct observe_grains *out,
                            struct fault *fault);

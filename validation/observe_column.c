@@ -18,19 +18,27 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { DROP, SERIES_RATIO, CONTINUUM_ERROR, BEND, UNEVENNESS, SQUARE_SLOPE, SQUARE_BEND,
-       UNSTEADINESS };
+enum {
+    DROP,
+    SERIES_RATIO,
+    CONTINUUM_ERROR,
+    BEND,
+    UNEVENNESS,
+    SQUARE_SLOPE,
+    SQUARE_BEND,
+    UNSTEADINESS
+};
 
 struct column {
     struct observe_box box;
     struct observe_physics physics;
-    double flux;                /* (l/tau) */
+    double flux; /* (l/tau) */
     const struct series *pressure, *solid_fraction;
-    const double *last;         /* pressure of the last frame */
-    const double *band;         /* solid fractions of equal bands, bottom first */
+    const double *last; /* pressure of the last frame */
+    const double *band; /* solid fractions of equal bands, bottom first */
     size_t bands;
-    double *mean;               /* mean[0 .. ny-1]: of the pressure, over each row */
-    double *square;             /* (1 + mean)^2 */
+    double *mean;   /* mean[0 .. ny-1]: of the pressure, over each row */
+    double *square; /* (1 + mean)^2 */
 };
 
 static enum status load(struct run_view *v, struct column *c, struct fault *fault) {
@@ -88,9 +96,9 @@ static double series_resistance(const struct column *c) {
     const double *rho = c->solid_fraction->value;
     double sum = 0;
     for (size_t j = 0; j + 1 < c->box.ny; j++)
-        sum += 1 / closure_face_conductivity(c->physics.law, c->physics.face, rho[j * c->box.nx],
-                                             rho[(j + 1) * c->box.nx],
-                                             c->physics.solid_fraction_min);
+        sum +=
+            1 / closure_face_conductivity(c->physics.law, c->physics.face, rho[j * c->box.nx],
+                                          rho[(j + 1) * c->box.nx], c->physics.solid_fraction_min);
     return sum;
 }
 
@@ -132,8 +140,7 @@ static enum status measure(struct run_view *v, const double *settings, struct me
     double *height = c.square; /* no longer needed */
     for (size_t j = 0; j <= top; j++)
         height[j] = (double)j;
-    status =
-        measurement_add_curve(out, "pressure profile", "end", height, c.mean, c.box.ny, fault);
+    status = measurement_add_curve(out, "pressure profile", "end", height, c.mean, c.box.ny, fault);
     free(c.mean);
     return status;
 }

@@ -11,8 +11,7 @@
 
 #include <math.h>
 
-static enum status largest(struct run_view *v, const char *name, double *out,
-                           struct fault *fault) {
+static enum status largest(struct run_view *v, const char *name, double *out, struct fault *fault) {
     const struct series *s;
     enum status status = observe_values(v, name, 1, &s, fault);
     if (status)

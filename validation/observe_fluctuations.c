@@ -21,8 +21,17 @@
 #include <stdlib.h>
 
 enum { EARLY_TAU, LATE_TAU, MIN_ROWS, MARGIN_L };
-enum { VARIANCE_START, VARIANCE_EARLY, VARIANCE_LATE, LENGTH_START, LENGTH_EARLY, LENGTH_LATE,
-       VARIANCE_GROWTH, LENGTH_GROWTH, OUTPUTS };
+enum {
+    VARIANCE_START,
+    VARIANCE_EARLY,
+    VARIANCE_LATE,
+    LENGTH_START,
+    LENGTH_EARLY,
+    LENGTH_LATE,
+    VARIANCE_GROWTH,
+    LENGTH_GROWTH,
+    OUTPUTS
+};
 
 /* Columns [left, right) and rows [low, high) of sites. */
 struct window {
@@ -89,11 +98,11 @@ static enum status find_window(struct task *k, double time, struct window *out,
         out->high = k->box.ny - k->margin;
         return STATUS_OK;
     }
-    enum status status = observe_frame(k->view, "particles/grains/position", k->grains.series,
-                                       time, &frame, fault);
+    enum status status =
+        observe_frame(k->view, "particles/grains/position", k->grains.series, time, &frame, fault);
     if (!status)
-        status = profile_measure(&k->profile, k->view, &k->box, &k->grains, k->to_volume, frame,
-                                 fault);
+        status =
+            profile_measure(&k->profile, k->view, &k->box, &k->grains, k->to_volume, frame, fault);
     if (status)
         return status;
     struct plateau p = profile_plateau(&k->profile, &PLATEAU_RULE);
@@ -164,8 +173,8 @@ static enum status measure(struct run_view *v, const double *settings, struct me
     if (!status)
         status = measure_at(&k, out, 0, "start", VARIANCE_START, LENGTH_START, fault);
     if (!status)
-        status = measure_at(&k, out, settings[EARLY_TAU], early, VARIANCE_EARLY, LENGTH_EARLY,
-                            fault);
+        status =
+            measure_at(&k, out, settings[EARLY_TAU], early, VARIANCE_EARLY, LENGTH_EARLY, fault);
     if (!status)
         status = measure_at(&k, out, settings[LATE_TAU], late, VARIANCE_LATE, LENGTH_LATE, fault);
     if (!status) {

@@ -73,11 +73,10 @@ static enum status measure(struct run_view *v, const double *settings, struct me
         return status;
     status = find_front(v, &box, &g, &p, to_volume, settings, settings[EARLY_TAU], &early, fault);
     if (!status)
-        status = measurement_add_curve(out, "density profile", "early", p.height,
-                                       p.solid_fraction, p.rows, fault);
+        status = measurement_add_curve(out, "density profile", "early", p.height, p.solid_fraction,
+                                       p.rows, fault);
     if (!status)
-        status =
-            find_front(v, &box, &g, &p, to_volume, settings, settings[LATE_TAU], &late, fault);
+        status = find_front(v, &box, &g, &p, to_volume, settings, settings[LATE_TAU], &late, fault);
     if (!status)
         status = measurement_add_curve(out, "density profile", "late", p.height, p.solid_fraction,
                                        p.rows, fault);

@@ -75,8 +75,7 @@ static void compare(const struct task *k, const double *rho, const double *u, do
             worst[FRACTION_ERROR] = fmax(worst[FRACTION_ERROR], fabs(rho[site] - own_rho));
             for (size_t a = 0; a < 2; a++) {
                 double own_u = scale * k->own[3 * site + 1 + a] / clipped;
-                worst[VELOCITY_ERROR] =
-                    fmax(worst[VELOCITY_ERROR], fabs(u[2 * site + a] - own_u));
+                worst[VELOCITY_ERROR] = fmax(worst[VELOCITY_ERROR], fabs(u[2 * site + a] - own_u));
             }
         }
     worst[TOTAL_ERROR] = fmax(worst[TOTAL_ERROR], fabs(field / total - 1));
@@ -104,8 +103,8 @@ static enum status measure(struct run_view *v, const double *settings, struct me
 }
 
 static const char *const DATASETS[] = {"particles/grains/position", "particles/grains/velocity",
-                                       "particles/grains/radius", "fields/solid_fraction",
-                                       "fields/grain_velocity", NULL};
+                                       "particles/grains/radius",   "fields/solid_fraction",
+                                       "fields/grain_velocity",     NULL};
 
 const struct recipe recipe_halo = {
     .name = "halo",

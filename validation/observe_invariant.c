@@ -52,9 +52,9 @@ static enum status load(struct run_view *v, struct task *k, struct fault *fault)
 }
 
 struct sums {
-    double change, size;    /* sum V phi (p' - p), sum V phi |p' - p| (l^2 P0) */
-    double right;           /* squares of V phi p - dt div u (l^2 P0) */
-    double flow;            /* squares of dt div u */
+    double change, size; /* sum V phi (p' - p), sum V phi |p' - p| (l^2 P0) */
+    double right;        /* squares of V phi p - dt div u (l^2 P0) */
+    double flow;         /* squares of dt div u */
 };
 
 /* Over the step from frame f to f + 1. */
@@ -90,8 +90,7 @@ static enum status measure(struct run_view *v, const double *settings, struct me
     for (size_t f = 0; f + 1 < k.p->frames; f++) {
         struct sums s = sum_step(&k, f);
         if (s.right > 0)
-            imbalance =
-                fmax(imbalance, fabs(s.change) / sqrt((double)k.box.sites * s.right));
+            imbalance = fmax(imbalance, fabs(s.change) / sqrt((double)k.box.sites * s.right));
         drift += s.change;
         size += s.size;
         motion = fmax(motion, sqrt(s.flow));

@@ -69,8 +69,7 @@ static void compare(const struct mode *m, const struct observe_physics *physics,
                     double ratio, double time, double steps, struct measurement *out) {
     double d = closure_diffusivity(physics->law, rho, physics->solid_fraction_min, physics->peclet);
     double continuum = d * closure_mode_square(m->mx, m->my, m->box.width_l, m->box.height_l);
-    double lattice =
-        d * closure_mode_square_lattice(m->mx, m->my, m->box.width_l, m->box.height_l);
+    double lattice = d * closure_mode_square_lattice(m->mx, m->my, m->box.width_l, m->box.height_l);
     double rate = -log(ratio) / time;
     double step_rate = (pow(ratio, -1 / steps) - 1) * steps / time;
     out->value[RATE] = rate;

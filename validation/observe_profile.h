@@ -18,25 +18,25 @@
 
 struct profile {
     size_t rows;
-    double row_l;            /* height of a row (l) */
-    double mean_fraction;    /* all grains in the box (1) */
-    double *height;          /* of each row's middle (l) */
-    double *solid_fraction;  /* (1) */
-    double *speed;           /* area-weighted mean, positive downwards (U0); 0 in empty rows */
+    double row_l;           /* height of a row (l) */
+    double mean_fraction;   /* all grains in the box (1) */
+    double *height;         /* of each row's middle (l) */
+    double *solid_fraction; /* (1) */
+    double *speed;          /* area-weighted mean, positive downwards (U0); 0 in empty rows */
 };
 
 struct plateau {
-    size_t rows;             /* how many rows belong to it; 0: none */
-    size_t lowest, highest;  /* first and last of them */
-    double solid_fraction;   /* mean over its rows (1) */
-    double speed;            /* the same, positive downwards (U0) */
+    size_t rows;            /* how many rows belong to it; 0: none */
+    size_t lowest, highest; /* first and last of them */
+    double solid_fraction;  /* mean over its rows (1) */
+    double speed;           /* the same, positive downwards (U0) */
 };
 
 /* Which rows count: see above. */
 struct plateau_rule {
-    double sparse;           /* rows below this share of the mean density are dropped */
-    double slow;             /* rows below this share of the largest speed: settled */
-    double thin;             /* rows below this share of the largest density left: clear */
+    double sparse; /* rows below this share of the mean density are dropped */
+    double slow;   /* rows below this share of the largest speed: settled */
+    double thin;   /* rows below this share of the largest density left: clear */
 };
 extern const struct plateau_rule PLATEAU_RULE; /* 1/2, 1/2, 2/3 */
 

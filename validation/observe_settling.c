@@ -60,8 +60,8 @@ struct task {
     struct profile profile;
 };
 
-static enum status collect(struct task *k, const double *settings, struct sums *s,
-                           struct trace *t, struct fault *fault) {
+static enum status collect(struct task *k, const double *settings, struct sums *s, struct trace *t,
+                           struct fault *fault) {
     for (size_t f = 0; f < k->grains.frames; f++) {
         double time = k->grains.time[f];
         if (time <= 0 || time < settings[FROM_TAU] - k->physics.dt_tau / 2)

@@ -24,8 +24,15 @@
 
 #include <math.h>
 
-enum { GATHER_ERROR, ADJOINT_ERROR, BALANCE_X, BALANCE_Y, UNABSORBED_ERROR, UNABSORBED_SHARE,
-       WORK_SHARE };
+enum {
+    GATHER_ERROR,
+    ADJOINT_ERROR,
+    BALANCE_X,
+    BALANCE_Y,
+    UNABSORBED_ERROR,
+    UNABSORBED_SHARE,
+    WORK_SHARE
+};
 
 struct task {
     struct run_view *view;
@@ -40,7 +47,7 @@ struct sums {
     double grain_work, site_work, gas_work; /* the three sides above */
     double work_size;                       /* sum of |F_i . v_i| */
     double force[2], kept[2], wall[2];
-    double force_size[2];                   /* sum of |F_i|, and of the walls' pressures */
+    double force_size[2]; /* sum of |F_i|, and of the walls' pressures */
 };
 
 static enum status load(struct task *k, struct fault *fault) {
@@ -59,8 +66,7 @@ static enum status load(struct task *k, struct fault *fault) {
     if (!status)
         status = observe_field(k->view, "fields/grain_velocity", &k->box, 2, &k->u, fault);
     if (!status)
-        status =
-            observe_values(k->view, "observables/unabsorbed_force", 2, &k->unabsorbed, fault);
+        status = observe_values(k->view, "observables/unabsorbed_force", 2, &k->unabsorbed, fault);
     if (status)
         return status;
     size_t frames = k->grains.frames;
@@ -135,8 +141,7 @@ static void compare(const struct task *k, size_t frame, const struct sums *s, do
         worst[BALANCE_X + a] = fmax(worst[BALANCE_X + a], balance);
         worst[UNABSORBED_ERROR] = fmax(worst[UNABSORBED_ERROR], unabsorbed);
     }
-    worst[UNABSORBED_SHARE] =
-        fmax(worst[UNABSORBED_SHARE], fabs(s->kept[1]) / s->force_size[1]);
+    worst[UNABSORBED_SHARE] = fmax(worst[UNABSORBED_SHARE], fabs(s->kept[1]) / s->force_size[1]);
     worst[WORK_SHARE] = fmax(worst[WORK_SHARE], fabs(s->grain_work) / s->work_size);
 }
 

@@ -229,8 +229,8 @@ enum status run_view_parameter(struct run_view *v, const char *name, double *out
     return STATUS_OK;
 }
 
-enum status run_view_parameter_list(struct run_view *v, const char *name,
-                                    const double **values, size_t *count, struct fault *fault) {
+enum status run_view_parameter_list(struct run_view *v, const char *name, const double **values,
+                                    size_t *count, struct fault *fault) {
     const struct kept_array *k;
     enum status status = parameter_values(v, name, &k, fault);
     if (status)
@@ -257,8 +257,8 @@ enum status run_view_parameter_text(struct run_view *v, const char *name, const 
 
 /* -- time series and arrays ------------------------------------------------- */
 
-static enum status check_series(const struct run_view *v, const char *name,
-                                const struct series *s, struct fault *fault) {
+static enum status check_series(const struct run_view *v, const char *name, const struct series *s,
+                                struct fault *fault) {
     for (size_t f = 0; f < s->frames; f++) {
         if (!isfinite(s->time[f]) || !isfinite(s->step[f]))
             return fault_set(fault, STATUS_BAD_INPUT, "%s: %s: time of frame %zu is not finite",

@@ -25,8 +25,8 @@ void run_view_close(struct run_view *v); /* NULL is allowed */
  * (attributes of /parameters).  A choice is compared with run_view_parameter_is. */
 enum status run_view_parameter(struct run_view *v, const char *name, double *out,
                                struct fault *fault);
-enum status run_view_parameter_list(struct run_view *v, const char *name,
-                                    const double **values, size_t *count, struct fault *fault);
+enum status run_view_parameter_list(struct run_view *v, const char *name, const double **values,
+                                    size_t *count, struct fault *fault);
 enum status run_view_parameter_text(struct run_view *v, const char *name, const char **out,
                                     struct fault *fault);
 

@@ -1,0 +1,123 @@
+/* observe_flight.c -- grains on their own: through-flow, and free fall.
+ *
+ * acceleration: grains are held until the gas is steady and then let go; from
+ * one step to the next, before they move at all, Fr dv/dt = -gravity + q/(K rho_min),
+ * for where no site reaches rho_min the gradient is q Pe/K(rho_min) everywhere.
+ * A moving grain would drag itself: only the first step is exact.
+ *
+ * free-fall: without gas, x = x0 + v0 t - gravity t^2/(2 Fr), before any contact.
+ *
+ * Source:     MFM, Eq. 11 and Section II C; docs/theory.md.
+ * Leaves out: contacts.
+ * Checked by: graingas/verification-through-flow, graingas/verification-free-fall;
+ *             tests/unit/test_observe_grains.c.
+ */
+#include "validation/observe.h"
+#include "validation/recipes.h"
+
+#include <math.h>
+
+enum { ACCELERATION, SIDEWAYS, SPREAD };
+enum { POSITION_ERROR, VELOCITY_ERROR };
+
+static enum status load_last_step(struct run_view *v, struct observe_grains *g, double *dt,
+                                  struct fault *fault) {
+    enum status status = observe_grains(v, true, g, fault);
+    if (!status)
+        status = run_view_parameter(v, "dt_tau", dt, fault);
+    if (status)
+        return status;
+    size_t last = g->frames - 1;
+    if (g->frames < 2 || !g->count || g->series->step[last] != g->series->step[last - 1] + 1)
+        return fault_set(fault, STATUS_BAD_INPUT,
+                         "%s: acceleration needs grains and two samples one step apart",
+                         run_view_path(v));
+    for (size_t i = 0; i < g->count; i++) {
+        const double *u = observe_vector(g->velocity, g, last - 1, i);
+        if (u[0] != 0 || u[1] != 0)
+            return fault_set(fault, STATUS_BAD_INPUT,
+                             "%s: grain %zu moves before it is let go at %g tau", run_view_path(v),
+                             i, g->time[last - 1]);
+    }
+    return STATUS_OK;
+}
+
+static enum status measure_acceleration(struct run_view *v, const double *settings,
+                                        struct measurement *out, struct fault *fault) {
+    (void)settings;
+    struct observe_grains g;
+    double dt;
+    enum status status = load_last_step(v, &g, &dt, fault);
+    if (status)
+        return status;
+    double sum = 0, sideways = 0, low = INFINITY, high = -INFINITY;
+    for (size_t i = 0; i < g.count; i++) {
+        const double *u = observe_vector(g.velocity, &g, g.frames - 1, i);
+        double a = u[1] / dt;
+        sum += a;
+        low = fmin(low, a);
+        high = fmax(high, a);
+        sideways = fmax(sideways, fabs(u[0] / dt));
+    }
+    out->value[ACCELERATION] = sum / (double)g.count;
+    out->value[SIDEWAYS] = sideways;
+    out->value[SPREAD] = high - low;
+    return STATUS_OK;
+}
+
+static enum status measure_free_fall(struct run_view *v, const double *settings,
+                                     struct measurement *out, struct fault *fault) {
+    (void)settings;
+    struct observe_grains g;
+    double gravity, froude;
+    enum status status = observe_grains(v, true, &g, fault);
+    if (!status)
+        status = run_view_parameter(v, "gravity", &gravity, fault);
+    if (!status)
+        status = run_view_parameter(v, "froude", &froude, fault);
+    if (status)
+        return status;
+    if (g.frames < 2 || !g.count)
+        return fault_set(fault, STATUS_BAD_INPUT, "%s: free fall needs grains and two samples",
+                         run_view_path(v));
+    for (size_t f = 1; f < g.frames; f++) {
+        double t = g.time[f] - g.time[0], fall[2] = {0, gravity / froude};
+        for (size_t i = 0; i < g.count; i++) {
+            const double *x0 = observe_vector(g.position, &g, 0, i);
+            const double *u0 = observe_vector(g.velocity, &g, 0, i);
+            const double *x = observe_vector(g.position, &g, f, i);
+            const double *u = observe_vector(g.velocity, &g, f, i);
+            for (size_t a = 0; a < 2; a++) {
+                double x_error = fabs(x[a] - (x0[a] + u0[a] * t - fall[a] * t * t / 2));
+                double u_error = fabs(u[a] - (u0[a] - fall[a] * t));
+                out->value[POSITION_ERROR] = fmax(out->value[POSITION_ERROR], x_error);
+                out->value[VELOCITY_ERROR] = fmax(out->value[VELOCITY_ERROR], u_error);
+            }
+        }
+    }
+    return STATUS_OK;
+}
+
+static const char *const DATASETS[] = {"particles/grains/position", "particles/grains/velocity",
+                                       "particles/grains/radius", NULL};
+
+const struct recipe recipe_acceleration = {
+    .name = "acceleration",
+    .title = "Acceleration of grains at rest that are let go",
+    .source = "MFM, Eq. 11",
+    .datasets = DATASETS,
+    .output = {{"acceleration", "U0/tau", "upwards, over the last step, mean over grains"},
+               {"sideways", "U0/tau", "largest across"},
+               {"spread", "U0/tau", "largest less smallest upwards"}},
+    .measure = measure_acceleration,
+};
+
+const struct recipe recipe_free_fall = {
+    .name = "free-fall",
+    .title = "Deviation from the parabola",
+    .source = "MFM, Section II B, step 1",
+    .datasets = DATASETS,
+    .output = {{"position_error", "l", "largest deviation of a coordinate"},
+               {"velocity_error", "U0", "largest deviation of a velocity component"}},
+    .measure = measure_free_fall,
+};

@@ -1,0 +1,28 @@
+/* predictions.c -- the list of predictions.  A new one is one entry in its topic's
+ * table and one line here. */
+#include "validation/predictions.h"
+
+#include <string.h>
+
+static const struct prediction *const PREDICTIONS[] = {
+    &PREDICT_SETTLING[0], &PREDICT_SETTLING[1], &PREDICT_SETTLING[2], &PREDICT_GAS[0],
+    &PREDICT_GAS[1],      &PREDICT_GAS[2],      &PREDICT_GAS[3],      &PREDICT_GAS[4],
+    &PREDICT_GAS[5],      &PREDICT_GAS[6],      &PREDICT_GAS[7],      &PREDICT_GAS[8],
+    &PREDICT_GAS[9],      &PREDICT_GAS[10],     &PREDICT_GAS[11],     &PREDICT_GAS[12],
+    &PREDICT_DISCS[0],    &PREDICT_DISCS[1],    &PREDICT_DISCS[2],
+};
+enum { PREDICTION_COUNT = sizeof PREDICTIONS / sizeof *PREDICTIONS };
+_Static_assert(PREDICTION_COUNT == PREDICT_SETTLING_COUNT + PREDICT_GAS_COUNT + PREDICT_DISCS_COUNT,
+               "every prediction of every table stands in the list");
+
+const struct prediction *prediction_find(const char *name) {
+    for (size_t i = 0; i < PREDICTION_COUNT; i++)
+        if (!strcmp(PREDICTIONS[i]->name, name))
+            return PREDICTIONS[i];
+    return NULL;
+}
+
+const struct prediction *const *prediction_all(size_t *count) {
+    *count = PREDICTION_COUNT;
+    return PREDICTIONS;
+}

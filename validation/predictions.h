@@ -1,0 +1,13 @@
+/* predictions.h -- every prediction there is, for predictions.c only. */
+#ifndef VALIDATION_PREDICTIONS_H
+#define VALIDATION_PREDICTIONS_H
+
+#include "validation/prediction.h"
+
+enum { PREDICT_SETTLING_COUNT = 3, PREDICT_GAS_COUNT = 13, PREDICT_DISCS_COUNT = 3 };
+
+extern const struct prediction PREDICT_SETTLING[PREDICT_SETTLING_COUNT]; /* predict_settling.c */
+extern const struct prediction PREDICT_GAS[PREDICT_GAS_COUNT];           /* predict_gas.c */
+extern const struct prediction PREDICT_DISCS[PREDICT_DISCS_COUNT];       /* predict_discs.c */
+
+#endif
