@@ -15,7 +15,7 @@ enum {
     GAP = 20,
     BOTTOM = 68,
     FONT = 15,
-    CHARACTER = 8, /* of the key, on average */
+    CHARACTER = 10, /* of the key, on average */
     KEY_SAMPLE = 64,
     MAX_PANELS = 3
 };
@@ -125,7 +125,7 @@ static struct range y_range(const struct report_figure *f, const struct report_p
 /* -- the key ---------------------------------------------------------------- */
 
 static bool same_entry(const struct report_series *a, const struct report_series *b) {
-    return a->style == b->style && a->colour == b->colour && strcmp(a->label, b->label) == 0;
+    return a->colour == b->colour && strcmp(a->label, b->label) == 0;
 }
 
 /* Shown once, though both panels have it. */
@@ -195,7 +195,7 @@ static struct layout lay_out(const struct report_figure *f) {
             l.key_count++;
         }
     }
-    l.key_columns = (WIDTH - LEFT) / (CHARACTER * longest + KEY_SAMPLE);
+    l.key_columns = (WIDTH - LEFT - RIGHT) / (CHARACTER * longest + KEY_SAMPLE);
     l.key_columns = l.key_columns < 1 ? 1 : l.key_columns > 3 ? 3 : l.key_columns;
     int rows = (l.key_count + l.key_columns - 1) / l.key_columns;
     double y = TOP + KEY_ROW * rows + (rows > 0 ? 6 : 0);
@@ -328,7 +328,7 @@ static void put_script(FILE *out, const struct report_figure *f) {
             l.height, FONT);
     fprintf(out,
             "set encoding utf8\nset border 3 lw 1 lc rgb '#444444'\nset tics out nomirror scale "
-            ".5\nset errorbars 1.3\n"
+            ".5\nset errorbars 1.3\nset pointintervalbox 0\n"
             "set grid lw .7 lc rgb '#dddddd'\nset key at screen .5,%.6f center top horizontal "
             "Left reverse noenhanced samplen 2.5 spacing 1.2 maxcols %d\n",
             1 - (TOP - 6) / l.height, l.key_columns);

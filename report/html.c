@@ -51,7 +51,7 @@ static void put_head(struct page *p) {
                     "style-src 'unsafe-inline'; img-src data:\">\n"
                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                     "<meta name=\"color-scheme\" content=\"light dark\">\n<title>");
-    fprintf(p->out, "%s: ", words_headline(p->report));
+    fprintf(p->out, "%s%s: ", p->report->modified ? "MODIFIED, " : "", words_headline(p->report));
     html_text(p, "", p->report->suite, ", tier ");
     html_text(p, "", p->report->tier, "</title>\n<style>\n");
     fprintf(p->out, "%s</style>\n</head>\n", html_style());

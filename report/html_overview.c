@@ -18,15 +18,16 @@ static void put_banner(struct page *p) {
               "validation of the solver.</p>\n");
 }
 
+/* A pass of a modified solver is not shown in green. */
 static void put_sentence(struct page *p) {
-    const char *class = verdict_name(report_verdict(p->report));
-    const char *symbol = report_verdict(p->report) == VERDICT_PASS   ? "✓"
-                         : report_verdict(p->report) == VERDICT_FAIL ? "✗"
-                                                                     : "?";
+    static const char *const symbol[] = {"✓", "✗", "?"};
+    enum verdict verdict = report_verdict(p->report);
+    bool is_doubtful = p->report->modified && verdict == VERDICT_PASS;
     fprintf(p->out,
             "<h1 class=\"%s\"><span class=\"symbol\" aria-hidden=\"true\">%s</span> "
-            "<span class=\"headline\">%s.</span> ",
-            class, symbol, words_headline(p->report));
+            "<span class=\"headline\">%s%s.</span> ",
+            is_doubtful ? "inconclusive" : verdict_name(verdict), symbol[verdict],
+            p->report->modified ? "MODIFIED, " : "", words_headline(p->report));
     words_sentence(p->out, p->report);
     fprintf(p->out, "</h1>\n");
 }
@@ -154,15 +155,14 @@ static void put_matrix_row(struct page *p, const struct report_case *c) {
 }
 
 static void put_matrix(struct page *p) {
-    fprintf(p->out,
-            "<h2>Cases</h2>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-            "aria-label=\"Verdict of each case\">\n<table class=\"matrix\">\n<thead><tr>"
-            "<th scope=\"col\">Verdict</th><th scope=\"col\">Case</th>"
-            "<th scope=\"col\" class=\"num\">Pass</th>"
-            "<th scope=\"col\" class=\"num\">Fail</th>"
-            "<th scope=\"col\" class=\"num\"><abbr title=\"inconclusive\">Incon.</abbr></th>"
-            "<th scope=\"col\" aria-hidden=\"true\">Check by check</th>"
-            "<th scope=\"col\">Worst margin used</th></tr></thead>\n<tbody>\n");
+    fprintf(p->out, "<h2>Cases</h2>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
+                    "aria-label=\"Verdict of each case\">\n<table class=\"matrix\">\n<thead><tr>"
+                    "<th scope=\"col\">Verdict</th><th scope=\"col\">Case</th>"
+                    "<th scope=\"col\" class=\"num\">Pass</th>"
+                    "<th scope=\"col\" class=\"num\">Fail</th>"
+                    "<th scope=\"col\" class=\"num\">Inconclusive</th>"
+                    "<th scope=\"col\" aria-hidden=\"true\">Check by check</th>"
+                    "<th scope=\"col\">Worst margin used</th></tr></thead>\n<tbody>\n");
     for (size_t i = 0; i < p->report->case_count; i++)
         put_matrix_row(p, &p->report->cases[i]);
     fprintf(p->out, "</tbody></table></div>\n");

@@ -138,7 +138,7 @@ static void put_worst(FILE *out, const struct report *r) {
 
 static void put_head(FILE *out, const struct report *r) {
     struct report_count n = report_tally(r);
-    fprintf(out, "# %s: ", words_headline(r));
+    fprintf(out, "# %s%s: ", r->modified ? "MODIFIED, " : "", words_headline(r));
     escape_markdown(out, r->suite);
     fprintf(out, ", tier ");
     escape_markdown(out, r->tier);
