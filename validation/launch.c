@@ -208,6 +208,8 @@ void launch_free(struct launcher *l) {
         if (launch_running(l) > 0)
             wait_for_signal(l, 0.05);
     }
+    while (wait_for_signal(l, 0) > 0)
+        continue; /* a second Ctrl-C must not strike while results are put in order */
     sigaction(SIGCHLD, &l->child_before, NULL);
     sigprocmask(SIG_SETMASK, &l->before, NULL);
     free(l);
