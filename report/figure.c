@@ -239,15 +239,29 @@ static void put_log_tics(FILE *out, char axis, struct range r) {
     fprintf(out, ")\n");
 }
 
-static void put_axis(FILE *out, char axis, bool is_log, struct range r, const char *label) {
+static void put_axis(FILE *out, char axis, bool is_log, struct range r) {
     fprintf(out, "set %ctics autofreq\nset format %c '%%g'\nunset logscale %c\n", axis, axis, axis);
     if (is_log) {
         fprintf(out, "set logscale %c\n", axis);
         put_log_tics(out, axis, r);
     }
-    fprintf(out, "set %crange [%.12g:%.12g]\nset %clabel ", axis, r.low, r.high, axis);
-    gnuplot_put_text(out, label);
-    fprintf(out, " noenhanced%s\n", axis == 'x' ? " offset 0,.6" : "");
+    fprintf(out, "set %crange [%.12g:%.12g]\n", axis, r.low, r.high);
+}
+
+/* Labels stand at fixed places: gnuplot's own move with the width of the numbers, and are left
+ * out when it finds the margin too small. */
+static void put_labels(FILE *out, const struct report_figure *f, const struct layout *l,
+                       size_t panel) {
+    fprintf(out, "set label 2 ");
+    gnuplot_put_text(out, f->panel[panel].y_label);
+    fprintf(out, " noenhanced center rotate by 90 at screen %.6f,%.6f\n", 20. / WIDTH,
+            1 - (l->top[panel] + l->bottom[panel]) / 2 / l->height);
+    if (panel + 1 < f->panel_count)
+        return;
+    fprintf(out, "set label 3 ");
+    gnuplot_put_text(out, f->x_label);
+    fprintf(out, " noenhanced center at screen %.6f,%.6f\n", (LEFT + WIDTH - RIGHT) / 2. / WIDTH,
+            18 / l->height);
 }
 
 /* -- data ------------------------------------------------------------------- */
@@ -273,8 +287,9 @@ static void put_data(FILE *out, const struct report_figure *f, size_t panel, str
     }
 }
 
-/* Uncertainty: a band around a line, bars on points.  A low panel has smaller points, so that
- * short bars are seen. */
+/* Uncertainty: a band around a line, bars on points (vectors with flat heads: around the points
+ * of its own error bars gnuplot wipes a white disc, and with it short bars).  A low panel has
+ * smaller points, so that short bars are seen. */
 static void put_series(FILE *out, const struct report_series *s, size_t panel, size_t k) {
     double size = panel == 0 ? POINT : SMALL_POINT;
     const char *colour = colour_of(s->colour);
@@ -285,9 +300,9 @@ static void put_series(FILE *out, const struct report_series *s, size_t panel, s
                 panel, k, colour);
     if (s->error && has_points(s))
         fprintf(out,
-                ", $data_%zu_%zu using 1:2:3:4 with yerrorbars lw 1.5 pt %d ps %.2g lc rgb '%s' "
-                "notitle",
-                panel, k, shape_of(s->colour), size, colour);
+                ", $data_%zu_%zu using 1:3:(0):($4-$3) with vectors heads size screen .006,90 "
+                "nofilled lw 1.5 lc rgb '%s' notitle",
+                panel, k, colour);
     fprintf(out, ", $data_%zu_%zu using 1:2 with ", panel, k);
     put_style(out, s, size);
     fprintf(out, " notitle");
@@ -300,8 +315,9 @@ static void put_panel(FILE *out, const struct report_figure *f, const struct lay
     struct range y = y_range(f, p);
     fprintf(out, "set tmargin at screen %.6f\nset bmargin at screen %.6f\n",
             1 - l->top[panel] / l->height, 1 - l->bottom[panel] / l->height);
-    put_axis(out, 'x', f->x_log, x, is_last ? f->x_label : "");
-    put_axis(out, 'y', p->y_log, y, p->y_label);
+    put_axis(out, 'x', f->x_log, x);
+    put_axis(out, 'y', p->y_log, y);
+    put_labels(out, f, l, panel);
     if (!is_last)
         fprintf(out, "set format x ''\n");
     if (panel > 0 && !p->y_log)
@@ -328,7 +344,7 @@ static void put_script(FILE *out, const struct report_figure *f) {
             l.height, FONT);
     fprintf(out,
             "set encoding utf8\nset border 3 lw 1 lc rgb '#444444'\nset tics out nomirror scale "
-            ".5\nset errorbars 1.3\nset pointintervalbox 0\n"
+            ".5\nset pointintervalbox 0\n"
             "set grid lw .7 lc rgb '#dddddd'\nset key at screen .5,%.6f center top horizontal "
             "Left reverse noenhanced samplen 2.5 spacing 1.2 maxcols %d\n",
             1 - (TOP - 6) / l.height, l.key_columns);

@@ -23,7 +23,7 @@ static struct frame frame_of(const struct report_picture *p, double px_per_l) {
     /* text grows with the picture: both are shown at the same size in the end */
     double em = fmin(2.2 * px_per_l + 4, 60);
     f.font = (int)lround(em * .75);
-    f.left = (int)lround(4.5 * em);
+    f.left = (int)lround(5.2 * em);
     f.right = (int)lround((p->shade ? 8 : 1.5) * em);
     f.top = (int)lround(em);
     f.bottom = (int)lround(4.2 * em);
