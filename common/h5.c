@@ -99,6 +99,8 @@ static enum status make_groups(struct h5_writer *w, const char *name, bool all,
 static bool set_attribute(hid_t object, const char *name, hid_t stored, hid_t given,
                           const void *values, size_t count) {
     hsize_t size = count;
+    if (H5Aexists(object, name) > 0 && H5Adelete(object, name) < 0)
+        return false;
     hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &size, NULL);
     hid_t attribute = H5Acreate2(object, name, stored, space, H5P_DEFAULT, H5P_DEFAULT);
     bool done = attribute >= 0 && (count == 0 || H5Awrite(attribute, given, values) >= 0);
@@ -301,11 +303,21 @@ enum status h5_append(struct h5_writer *w, const char *name, enum h5_type type, 
     return append_clock(w, path, H5_REAL, count, &time, time_unit, fault);
 }
 
+static bool is_same_object(hid_t file, const char *a, const char *b) {
+    H5O_info_t first, second;
+    return H5Lexists(file, b, H5P_DEFAULT) > 0 &&
+           H5Oget_info_by_name2(file, a, &first, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+           H5Oget_info_by_name2(file, b, &second, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+           first.addr == second.addr;
+}
+
 enum status h5_link(struct h5_writer *w, const char *target, const char *link,
                     struct fault *fault) {
     enum status status = make_groups(w, link, false, fault);
     if (status != STATUS_OK)
         return status;
+    if (is_same_object(w->file, target, link))
+        return STATUS_OK;
     if (H5Lcreate_hard(w->file, target, w->file, link, H5P_DEFAULT, H5P_DEFAULT) < 0)
         return write_fault(w, link, fault);
     return STATUS_OK;

@@ -37,10 +37,11 @@ enum status h5_append(struct h5_writer *w, const char *name, enum h5_type type, 
                       const size_t *dims, const void *data, const char *unit, long long step,
                       double time, const char *time_unit, struct fault *fault);
 
-/* Make `link` (a path) a hard link to `target`. */
+/* Make `link` (a path) a hard link to `target`; nothing happens where it is one. */
 enum status h5_link(struct h5_writer *w, const char *target, const char *link, struct fault *fault);
 
-/* Attributes of a group or dataset; the group is made when there is none. */
+/* Attributes of a group or dataset; the group is made when there is none, an
+ * attribute of that name is replaced. */
 enum status h5_attribute_text(struct h5_writer *w, const char *object, const char *name,
                               const char *text, struct fault *fault);
 enum status h5_attribute_texts(struct h5_writer *w, const char *object, const char *name,
