@@ -100,13 +100,15 @@ static double excess(enum comparison c, double d, double tolerance) {
 /* Every sample by itself; the worst one is shown. */
 static void judge_each(const struct judge_question *q, struct judge_answer *out) {
     double worst = -INFINITY;
+    double h = gsl_cdf_ugaussian_Pinv((1 + confidence) / 2) * q->expected_uncertainty;
     enum verdict v = VERDICT_PASS;
     for (size_t i = 0; i < q->count; i++) {
         double d = q->measured[i] - q->expected[i];
         double tolerance = amount_of(&q->margin, q->expected[i]);
         double beyond = excess(q->comparison, d, tolerance);
-        if (judge_interval(q->comparison, d, 0, tolerance) != VERDICT_PASS)
-            v = VERDICT_FAIL;
+        enum verdict one = judge_interval(q->comparison, d, h, tolerance);
+        if (one == VERDICT_FAIL || v == VERDICT_PASS)
+            v = one;
         if (beyond > worst || i == 0) {
             worst = beyond;
             out->measured = q->measured[i];
@@ -114,7 +116,8 @@ static void judge_each(const struct judge_question *q, struct judge_answer *out)
             out->tolerance = tolerance;
         }
     }
-    out->uncertainty = out->interval = 0;
+    out->uncertainty = 0;
+    out->interval = h;
     say_interval(q, out, v);
 }
 

@@ -1,0 +1,121 @@
+#include "validation/rows_across.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool takes(const struct measured_case *m, const struct case_across *a, size_t p) {
+    const struct plan_point *point = m->point[p].point;
+    return case_filter_takes(&a->points, point->parameter, point->parameter_count);
+}
+
+bool rows_group_has(const struct measured_case *m, const struct case_across *a, size_t p,
+                    size_t q) {
+    const struct plan_point *x = m->point[p].point, *y = m->point[q].point;
+    for (size_t i = 0; i < x->parameter_count; i++) {
+        if (x->parameter[i].value != y->parameter[i].value &&
+            strcmp(x->parameter[i].name, a->along) != 0)
+            return false;
+    }
+    return takes(m, a, p) && takes(m, a, q);
+}
+
+bool rows_group_first(const struct measured_case *m, const struct case_across *a, size_t p) {
+    for (size_t q = 0; q < p; q++) {
+        if (rows_group_has(m, a, q, p))
+            return false;
+    }
+    return takes(m, a, p);
+}
+
+static const char *name_group(const struct measured_case *m, const struct case_across *a,
+                              size_t first, struct arena *arena) {
+    const struct case_tier *t = m->plan->tier;
+    const char *name = NULL;
+    for (size_t i = 0; i < t->axis_count; i++) {
+        const struct case_parameter *p =
+            &m->point[first].point->parameter[t->parameter_count + i];
+        if (strcmp(p->name, a->along) == 0)
+            continue;
+        const char *value = case_value_text(arena, p->value);
+        name = value == NULL ? NULL
+                             : arena_text(arena, "%s%s%s=%s", name == NULL ? "" : name,
+                                          name == NULL ? "" : ",", p->name, value);
+        if (name == NULL)
+            return NULL;
+    }
+    return name == NULL ? "single" : name;
+}
+
+static int by_x(const void *a, const void *b) {
+    double x = ((const struct across_point *)a)->x, y = ((const struct across_point *)b)->x;
+    return (x > y) - (x < y);
+}
+
+/* One point of the fit; false when a run has no value. */
+static bool take_point(const struct measured_point *p, const struct case_across *a,
+                       struct across_point *out, const char **reason) {
+    size_t count = measured_mean(p, a->of.index, a->of.output, &out->y, &out->uncertainty);
+    out->x = measured_parameter(p, a->along);
+    if (a->exact)
+        out->uncertainty = 0;
+    for (size_t i = 0; i < p->run_count && *reason == NULL; i++) {
+        const struct measured_run *r = &p->run[i];
+        if (!r->usable)
+            *reason = r->failure;
+        else if (!isfinite(r->observable[a->of.index].value[a->of.output]))
+            *reason = r->observable[a->of.index].reason[0] != '\0'
+                          ? r->observable[a->of.index].reason
+                          : "the observable is not a number";
+    }
+    return count == p->run_count && count > 0;
+}
+
+/* The expectation, from the first usable run of the group. */
+static void take_expected(const struct measured_point *p, size_t check, struct rows_group *out) {
+    out->expected = NAN;
+    for (size_t i = 0; i < p->run_count && isnan(out->expected); i++) {
+        if (!p->run[i].usable)
+            continue;
+        out->expected = p->run[i].sample[check].expected;
+        out->expected_uncertainty = p->run[i].sample[check].expected_uncertainty;
+        if (isnan(out->expected) && out->reason == NULL)
+            out->reason = p->run[i].sample[check].reason;
+    }
+}
+
+enum status rows_group_fit(const struct measured_case *m, size_t check, size_t first,
+                           struct arena *arena, struct rows_group *out, struct fault *fault) {
+    const struct case_check *k = &m->plan->tier->check[check];
+    const struct case_across *a = &m->plan->file->across[k->number.index];
+    struct across_point *point = arena_take(arena, m->point_count, sizeof *point);
+    double value[ACROSS_MAX_OUTPUTS], uncertainty[ACROSS_MAX_OUTPUTS];
+    size_t count = 0;
+    bool complete = true;
+    *out = (struct rows_group){.name = name_group(m, a, first, arena),
+                               .value = NAN,
+                               .uncertainty = NAN};
+    if (point == NULL || out->name == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "fit: out of memory");
+    for (size_t p = first; p < m->point_count; p++) {
+        if (rows_group_has(m, a, first, p))
+            complete &= take_point(&m->point[p], a, &point[count++], &out->reason);
+    }
+    take_expected(&m->point[first], check, out);
+    if (!complete)
+        return STATUS_OK;
+    qsort(point, count, sizeof *point, by_x);
+    struct fault poor = FAULT_NONE;
+    enum status status = a->fit->fit(point, count, value, uncertainty, &poor);
+    if (status == STATUS_NO_MEMORY) {
+        *fault = poor;
+        return status;
+    }
+    if (status == STATUS_OK) {
+        out->value = value[k->number.output];
+        out->uncertainty = uncertainty[k->number.output];
+    } else if (out->reason == NULL) {
+        out->reason = arena_copy(arena, poor.text);
+    }
+    return STATUS_OK;
+}
