@@ -94,7 +94,10 @@ static enum status figure(struct page *p, const struct report_figure *f, struct 
     html_text(p, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Figure: ",
               f->title, "\">\n");
     fwrite(svg.text, 1, svg.length, p->out);
-    html_text(p, "</div>\n<figcaption>", f->caption, "</figcaption>\n</figure>\n");
+    fprintf(p->out, "</div>\n");
+    if (f->caption && *f->caption)
+        html_text(p, "<figcaption>", f->caption, "</figcaption>\n");
+    fprintf(p->out, "</figure>\n");
     sheet_free(&svg);
     return STATUS_OK;
 }

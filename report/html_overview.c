@@ -13,7 +13,7 @@ static void put_banner(struct page *p) {
     if (!r->modified)
         return;
     html_text(p, "<p class=\"banner\"><strong>MODIFIED.</strong> The solver was run with <code>",
-              r->modification,
+              r->modification && *r->modification ? r->modification : "other parameters",
               "</code> behind the judge's back: the expectations are the cases', and this is no "
               "validation of the solver.</p>\n");
 }

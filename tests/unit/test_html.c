@@ -1,0 +1,175 @@
+/* test_html.c -- index.html: self-contained, valid, every name shown as text. */
+#include "common/file.h"
+#include "tests/unit/report_sample.h"
+#include "tests/unit/unit.h"
+
+static char *written(const struct report *r, const char *folder) {
+    struct fault fault = FAULT_NONE;
+    char *text;
+    size_t length;
+    unit_ok(report_write_html(r, folder, &fault), &fault);
+    unit_ok(file_read(unit_path(folder, "index.html"), 1 << 24, &text, &length, &fault), &fault);
+    return text;
+}
+
+static void has(const char *text, const char *part) {
+    ck_assert_msg(strstr(text, part) != NULL, "expected '%s'", part);
+}
+
+static int compare_texts(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+/* The values of all id attributes, sorted; ids[0 .. count-1], each to be freed. */
+static size_t collect_ids(const char *text, char **ids, size_t room) {
+    size_t count = 0;
+    for (const char *s = text; (s = strstr(s, " id=")) != NULL; s += 5) {
+        const char *end = strchr(s + 5, s[4]);
+        ck_assert(count < room && end);
+        ids[count++] = strndup(s + 5, (size_t)(end - s - 5));
+    }
+    qsort(ids, count, sizeof *ids, compare_texts);
+    return count;
+}
+
+START_TEST(ids_are_unique_in_a_page_of_two_figures) {
+    static char *ids[1000];
+    struct sample s;
+    sample_fill(&s);
+    const char *folder = unit_folder();
+    char *text = written(&s.report, folder);
+    size_t count = collect_ids(text, ids, 1000);
+    ck_assert_uint_gt(count, 30);
+    for (size_t i = 1; i < count; i++)
+        ck_assert_str_ne(ids[i - 1], ids[i]);
+    for (size_t i = 0; i < count; i++)
+        free(ids[i]);
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(foreign_names_are_text) {
+    struct sample s;
+    sample_fill(&s);
+    const char *folder = unit_folder();
+    char *text = written(&s.report, folder);
+    ck_assert_ptr_null(strstr(text, "<b>x"));
+    ck_assert_ptr_null(strstr(text, "<script"));
+    ck_assert_ptr_null(strchr(text, '\x1b'));
+    has(text, "&lt;b&gt;x&lt;/b&gt;&#39;; rm `id`");
+    has(text, "&lt;script&gt;alert(1)&lt;/script&gt;");
+    has(text, "href=\"#case-_3Cb_3Ex_3C.b_3E");
+    has(text, "id=\"case-_3Cb_3Ex_3C.b_3E");
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(the_first_screen_answers) {
+    struct sample s;
+    sample_fill(&s);
+    s.report.modified = true;
+    s.report.modification = "restitution=0.5";
+    const char *folder = unit_folder();
+    char *text = written(&s.report, folder), *cases = strstr(text, "<main");
+    ck_assert_ptr_nonnull(cases);
+    *cases = '\0';
+    has(text, "MODIFIED");
+    has(text, "<code>restitution=0.5</code>");
+    has(text, "2 of 5 checks fail, in 2 of 2 cases");
+    has(text, "Worst failure: nothing measured by");
+    has(text, "<code>graingas/fluidization</code>: no time | today");
+    has(text, "0123abcd");
+    has(text, "2026-11-22T01:30:00Z");
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(a_red_row_tells_how_to_repeat_it) {
+    struct sample s;
+    sample_fill(&s);
+    const char *folder = unit_folder();
+    char *text = written(&s.report, folder);
+    has(text, "1.3137 lies above 1.2463");
+    has(text, "bedsim run &#39;a b.yaml&#39; --seed 1101");
+    has(text, "<code>graingas.sedimentation.1a2b3c4d-s1102</code>");
+    has(text, "1.314 ± 0.012");
+    has(text, "four seeds of an independent code");
+    has(text, "bedcheck run graingas/sedimentation</code>");
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(the_page_needs_nothing_else_and_repeats) {
+    struct sample s;
+    sample_fill(&s);
+    const char *folder = unit_folder();
+    char *one = written(&s.report, folder), *two = written(&s.report, folder);
+    ck_assert_str_eq(one, two);
+    ck_assert_ptr_null(strstr(one, "src=\"http"));
+    ck_assert_ptr_null(strstr(one, "href=\"http"));
+    ck_assert_ptr_null(strstr(one, "url(http"));
+    has(one, "default-src 'none'");
+    has(one, "src=\"data:image/png;base64,iVBORw0KGgo");
+    ck_assert(file_exists(unit_path(folder, "graingas.sedimentation.snapshot.png")));
+    free(one);
+    free(two);
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(the_page_is_valid) {
+    struct sample s;
+    sample_fill(&s);
+    s.report.modified = true;
+    const char *folder = unit_folder();
+    char command[512];
+    free(written(&s.report, folder));
+    if (system("command -v tidy >/dev/null") != 0) {
+        printf("tidy is not installed: the page was not validated\n");
+    } else {
+        snprintf(command, sizeof command, "tidy -q -e '%s'", unit_path(folder, "index.html"));
+        ck_assert_int_eq(system(command), 0);
+    }
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(an_empty_report_is_a_page_too) {
+    struct report r = {.suite = "bedcheck 0.1.0", .tier = "paper"};
+    const char *folder = unit_folder();
+    char *text = written(&r, folder);
+    has(text, "NOTHING JUDGED");
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(a_folder_that_cannot_be_made_is_named) {
+    struct sample s;
+    struct fault fault = FAULT_NONE;
+    const char *folder = unit_folder();
+    sample_fill(&s);
+    unit_write(unit_path(folder, "taken"), "x");
+    ck_assert_int_eq(report_write_html(&s.report, unit_path(folder, "taken/report"), &fault),
+                     STATUS_IO);
+    unit_says(&fault, "taken");
+    unit_remove(folder);
+}
+END_TEST
+
+int main(void) {
+    const TTest *const tests[] = {ids_are_unique_in_a_page_of_two_figures,
+                                  foreign_names_are_text,
+                                  the_first_screen_answers,
+                                  a_red_row_tells_how_to_repeat_it,
+                                  the_page_needs_nothing_else_and_repeats,
+                                  the_page_is_valid,
+                                  an_empty_report_is_a_page_too,
+                                  a_folder_that_cannot_be_made_is_named,
+                                  NULL};
+    return unit_run("html", tests);
+}
