@@ -81,8 +81,11 @@ static enum status times_of_range(const struct yaml_node *n, double **times, siz
     *times = malloc((last + 1) * sizeof **times);
     if (*times == NULL)
         return no_memory(n, fault);
-    for (size_t i = 0; i <= last; i++)
-        (*times)[i] = i < last ? from + (double)i * every : to;
+    for (size_t i = 0; i <= last; i++) {
+        char text[32]; /* 3 * 0.1 is meant to be 0.3 */
+        snprintf(text, sizeof text, "%.12g", from + (double)i * every);
+        (*times)[i] = strtod(text, NULL);
+    }
     *count = last + 1;
     return STATUS_OK;
 }
