@@ -92,8 +92,8 @@ static enum status prepare(struct job *job, struct fault *fault) {
     struct options *o = &job->options;
     if (runfile_load(o->run_path, &job->run, fault) || find_model(job, fault) ||
         result_check_datasets(job->model, &job->run, o->run_path, fault) ||
-        parameters_read(job->model, job->run.parameters, o->setting, o->settings,
-                        &job->parameters, fault) ||
+        parameters_read(job->model, job->run.parameters, o->setting, o->settings, &job->parameters,
+                        fault) ||
         check_output(o, fault))
         return fault->status;
     if (job->run.notice && !o->quiet)
@@ -348,8 +348,8 @@ static error_t parse_run(int key, char *argument, struct argp_state *state) {
 }
 
 static int command_run(int argc, char **argv) {
-    static const struct argp parser = {run_options, parse_run, "RUN.yaml",
-                                       "Run one run file with one seed.", NULL, NULL, NULL};
+    static const struct argp parser = {
+        run_options, parse_run, "RUN.yaml", "Run one run file with one seed.", NULL, NULL, NULL};
     struct options o = {0};
     argv[0] = (char[]){"bedsim run"};
     argp_parse(&parser, argc, argv, 0, NULL, &o);
@@ -357,11 +357,12 @@ static int command_run(int argc, char **argv) {
 }
 
 static int usage(FILE *to, int code) {
-    fprintf(to, "Usage: bedsim run RUN.yaml --seed N --out FILE.h5 [--set NAME=VALUE]... [--quiet]\n"
-                "       bedsim models\n"
-                "       bedsim params MODEL\n"
-                "       bedsim datasets MODEL\n"
-                "       bedsim --version | --help\n");
+    fprintf(to,
+            "Usage: bedsim run RUN.yaml --seed N --out FILE.h5 [--set NAME=VALUE]... [--quiet]\n"
+            "       bedsim models\n"
+            "       bedsim params MODEL\n"
+            "       bedsim datasets MODEL\n"
+            "       bedsim --version | --help\n");
     return code;
 }
 

@@ -29,11 +29,10 @@ static enum status write_parameter(struct h5_writer *w, const struct parameter_s
     return h5_attribute_reals(w, "parameters", row->name, &p->real[i], 1, fault);
 }
 
-enum status result_begin(struct h5_writer *w, const struct model *m,
-                         const struct parameter_set *p, uint64_t seed, struct fault *fault) {
+enum status result_begin(struct h5_writer *w, const struct model *m, const struct parameter_set *p,
+                         uint64_t seed, struct fault *fault) {
     double seed_value = (double)seed;
-    if (write_header(w, fault) ||
-        h5_attribute_text(w, "parameters", "model", m->name, fault) ||
+    if (write_header(w, fault) || h5_attribute_text(w, "parameters", "model", m->name, fault) ||
         h5_attribute_reals(w, "parameters", "seed", &seed_value, 1, fault))
         return fault->status;
     for (size_t i = 0; i < p->count; i++)

@@ -11,8 +11,8 @@
 #include "solver/model.h"
 
 /* /h5md, /parameters with every value and the seed. */
-enum status result_begin(struct h5_writer *w, const struct model *m,
-                         const struct parameter_set *p, uint64_t seed, struct fault *fault);
+enum status result_begin(struct h5_writer *w, const struct model *m, const struct parameter_set *p,
+                         uint64_t seed, struct fault *fault);
 
 /* Append the wanted datasets of one kind.  */
 enum status result_sample(struct h5_writer *w, const struct model *m, void *state,

@@ -20,16 +20,16 @@ enum { ITEM_COUNT = 9, COUNTER_COUNT = 24 };
 static void list_items(struct graingas *s, struct item *item) {
     struct grains *g = &s->grains;
     struct neighbours *n = &s->contacts.neighbours;
-    struct item all[ITEM_COUNT] = {{"state/x", H5_REAL, g->count, g->x},
-                                   {"state/y", H5_REAL, g->count, g->y},
-                                   {"state/vx", H5_REAL, g->count, g->vx},
-                                   {"state/vy", H5_REAL, g->count, g->vy},
-                                   {"state/radius", H5_REAL, g->count, g->radius},
-                                   {"state/rebuild_x", H5_REAL, g->count, n->x},
-                                   {"state/rebuild_y", H5_REAL, g->count, n->y},
-                                   {"state/pressure", H5_REAL, s->lattice.sites, s->gas.pressure},
-                                   {"state/collision_virial", H5_REAL, s->lattice.sites,
-                                    s->contacts.virial_field}};
+    struct item all[ITEM_COUNT] = {
+        {"state/x", H5_REAL, g->count, g->x},
+        {"state/y", H5_REAL, g->count, g->y},
+        {"state/vx", H5_REAL, g->count, g->vx},
+        {"state/vy", H5_REAL, g->count, g->vy},
+        {"state/radius", H5_REAL, g->count, g->radius},
+        {"state/rebuild_x", H5_REAL, g->count, n->x},
+        {"state/rebuild_y", H5_REAL, g->count, n->y},
+        {"state/pressure", H5_REAL, s->lattice.sites, s->gas.pressure},
+        {"state/collision_virial", H5_REAL, s->lattice.sites, s->contacts.virial_field}};
     memcpy(item, all, sizeof all);
 }
 
@@ -94,11 +94,13 @@ enum status graingas_save(const void *state, const char *path, struct fault *fau
     struct h5_writer *w = NULL;
     size_t counters = COUNTER_COUNT, label_count = 3 * s->grains.count;
     int64_t *labels = malloc((label_count + 1) * sizeof *labels);
-    if (!labels) return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
+    if (!labels)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
     list_items(s, item);
     pack_counters(s, counter);
     pack_labels(&s->grains, labels);
-    if (h5_create(path, &w, fault) != STATUS_OK) goto done;
+    if (h5_create(path, &w, fault) != STATUS_OK)
+        goto done;
     for (size_t k = 0; k < ITEM_COUNT; k++)
         if (h5_write(w, item[k].name, item[k].type, 1, &item[k].count, item[k].data, "1", fault))
             goto done;
@@ -122,14 +124,16 @@ static enum status read_exactly(struct h5_reader *r, const char *name, size_t co
     if (h5_read(r, name, count, &value, &found, fault) == STATUS_OK && found != count)
         fault_set(fault, STATUS_BAD_INPUT, "%s: %s has %zu values, this run needs %zu", h5_path(r),
                   name, found, count);
-    if (fault->status == STATUS_OK) memcpy(out, value, count * sizeof *out);
+    if (fault->status == STATUS_OK)
+        memcpy(out, value, count * sizeof *out);
     free(value);
     return fault->status;
 }
 
 static enum status load_labels(struct h5_reader *r, struct grains *g, struct fault *fault) {
     double *labels = malloc((3 * g->count + 1) * sizeof *labels);
-    if (!labels) return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
+    if (!labels)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
     if (read_exactly(r, "state/labels", 3 * g->count, labels, fault) == STATUS_OK)
         for (size_t i = 0; i < g->count; i++) {
             g->id[i] = (int32_t)labels[3 * i];
@@ -144,14 +148,16 @@ static enum status load_labels(struct h5_reader *r, struct grains *g, struct fau
 static enum status restore_neighbours(struct graingas *s, struct fault *fault) {
     struct grains *g = &s->grains;
     struct neighbours *n = &s->contacts.neighbours;
-    if (!n->built) return STATUS_OK;
+    if (!n->built)
+        return STATUS_OK;
     long long rebuilds = n->rebuilds;
     memcpy(s->ax, g->x, g->count * sizeof *g->x);
     memcpy(s->ay, g->y, g->count * sizeof *g->y);
     memcpy(g->x, n->x, g->count * sizeof *g->x);
     memcpy(g->y, n->y, g->count * sizeof *g->y);
     n->built = false;
-    if (neighbours_update(n, g, fault) != STATUS_OK) return fault->status;
+    if (neighbours_update(n, g, fault) != STATUS_OK)
+        return fault->status;
     memcpy(g->x, s->ax, g->count * sizeof *g->x);
     memcpy(g->y, s->ay, g->count * sizeof *g->y);
     n->rebuilds = rebuilds;
@@ -164,9 +170,11 @@ enum status graingas_load(void *state, const char *path, struct fault *fault) {
     double counter[COUNTER_COUNT];
     struct h5_reader *r = NULL;
     list_items(s, item);
-    if (h5_open(path, &r, fault) != STATUS_OK) return fault->status;
+    if (h5_open(path, &r, fault) != STATUS_OK)
+        return fault->status;
     for (size_t k = 0; k < ITEM_COUNT; k++)
-        if (read_exactly(r, item[k].name, item[k].count, item[k].data, fault)) goto done;
+        if (read_exactly(r, item[k].name, item[k].count, item[k].data, fault))
+            goto done;
     if (read_exactly(r, "state/counters", COUNTER_COUNT, counter, fault) ||
         load_labels(r, &s->grains, fault))
         goto done;

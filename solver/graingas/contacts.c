@@ -9,14 +9,18 @@ static size_t words(size_t bits) {
 }
 
 static enum status make_room(struct contacts *c, size_t needed, struct fault *fault) {
-    if (needed <= c->capacity) return STATUS_OK;
+    if (needed <= c->capacity)
+        return STATUS_OK;
     size_t capacity = 2 * needed + 64;
     struct contact *contact = realloc(c->contact, capacity * sizeof *contact);
-    if (contact) c->contact = contact;
+    if (contact)
+        c->contact = contact;
     uint64_t *todo = realloc(c->todo, words(capacity) * sizeof *todo);
-    if (todo) c->todo = todo;
+    if (todo)
+        c->todo = todo;
     int32_t *adjacent = realloc(c->adjacent, 2 * capacity * sizeof *adjacent);
-    if (adjacent) c->adjacent = adjacent;
+    if (adjacent)
+        c->adjacent = adjacent;
     if (!contact || !todo || !adjacent)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu contacts", capacity);
     c->capacity = capacity;
@@ -32,7 +36,8 @@ enum status contacts_create(struct contacts *c, size_t grains, double width, dou
     c->rest_overlap = CONTACTS_REST_OVERLAP * diameter_max;
     c->sites_x = (int)width + 1;
     c->virial_field = calloc((size_t)c->sites_x * ((size_t)height + 1), sizeof *c->virial_field);
-    if (c->adjacent_first && c->virial_field && make_room(c, 2 * grains, fault) == STATUS_OK) return STATUS_OK;
+    if (c->adjacent_first && c->virial_field && make_room(c, 2 * grains, fault) == STATUS_OK)
+        return STATUS_OK;
     contacts_free(c);
     return fault_set(fault, STATUS_NO_MEMORY, "no memory for the contacts of %zu grains", grains);
 }
@@ -54,7 +59,8 @@ void contacts_free(struct contacts *c) {
  * that a grain at rest on it does not sink from step to step. */
 static void add_wall(struct contacts *c, const struct grains *g, double threshold, size_t i,
                      int wall, double distance, double nx, double ny) {
-    if (distance >= g->radius[i]) return;
+    if (distance >= g->radius[i])
+        return;
     double support = wall == WALL_BOTTOM ? 0.5 * threshold : 0;
     c->contact[c->count++] = (struct contact){.i = (int32_t)i,
                                               .j = (int32_t)g->count,
@@ -75,16 +81,18 @@ static void add_pairs(struct contacts *c, const struct grains *g, double thresho
         int32_t j = n->other[p];
         double dx = x - g->x[j], dy = y - g->y[j], reach = r + g->radius[j];
         double square = dx * dx + dy * dy;
-        if (square >= reach * reach) continue;
+        if (square >= reach * reach)
+            continue;
         double d = sqrt(square);
-        c->contact[c->count++] = (struct contact){.i = (int32_t)i,
-                                                  .j = j,
-                                                  .wall = -1,
-                                                  .overlap = (float)(reach - d),
-                                                  .rest = threshold * fmax(0, 1 - (reach - d) * per_rest),
-                                                  .nx = d > 0 ? dx / d : 0,
-                                                  .ny = d > 0 ? dy / d : 1,
-                                                  .distance = d};
+        c->contact[c->count++] =
+            (struct contact){.i = (int32_t)i,
+                             .j = j,
+                             .wall = -1,
+                             .overlap = (float)(reach - d),
+                             .rest = threshold * fmax(0, 1 - (reach - d) * per_rest),
+                             .nx = d > 0 ? dx / d : 0,
+                             .ny = d > 0 ? dy / d : 1,
+                             .distance = d};
     }
 }
 
@@ -110,12 +118,15 @@ static void find_adjacent(struct contacts *c, size_t grains) {
     memset(first, 0, (grains + 2) * sizeof *first);
     for (size_t k = 0; k < c->count; k++) {
         first[c->contact[k].i + 1]++;
-        if (c->contact[k].wall < 0) first[c->contact[k].j + 1]++;
+        if (c->contact[k].wall < 0)
+            first[c->contact[k].j + 1]++;
     }
-    for (size_t i = 0; i < grains; i++) first[i + 1] += first[i];
+    for (size_t i = 0; i < grains; i++)
+        first[i + 1] += first[i];
     for (size_t k = 0; k < c->count; k++) {
         c->adjacent[first[c->contact[k].i]++] = (int32_t)k;
-        if (c->contact[k].wall < 0) c->adjacent[first[c->contact[k].j]++] = (int32_t)k;
+        if (c->contact[k].wall < 0)
+            c->adjacent[first[c->contact[k].j]++] = (int32_t)k;
     }
     memmove(first + 1, first, grains * sizeof *first);
     first[0] = 0;
@@ -163,7 +174,8 @@ static inline bool visit(struct contacts *c, struct grains *g, size_t n,
         return false;
     collide(c, k, g, speed, rule);
     mark_adjacent(c, k->i);
-    if (k->wall < 0) mark_adjacent(c, k->j);
+    if (k->wall < 0)
+        mark_adjacent(c, k->j);
     c->todo[n / 64] &= ~((uint64_t)1 << (n % 64));
     return true;
 }
@@ -201,15 +213,15 @@ static enum status too_many_sweeps(const struct contacts *c, const struct grains
         if (approach_speed(&c->contact[n], g) <= c->contact[n].rest)
             continue;
         size_t at = found < 3 ? found++ : 2;
-        for (worst[at] = n; at > 0 && c->contact[worst[at]].impulse >
-                                          c->contact[worst[at - 1]].impulse; at--) {
+        for (worst[at] = n;
+             at > 0 && c->contact[worst[at]].impulse > c->contact[worst[at - 1]].impulse; at--) {
             size_t swap = worst[at];
             worst[at] = worst[at - 1];
             worst[at - 1] = swap;
         }
     }
-    fault_set(fault, STATUS_NUMERICAL, "step %lld: collisions did not end in %d sweeps",
-              rule->step, CONTACTS_MAX_SWEEPS);
+    fault_set(fault, STATUS_NUMERICAL, "step %lld: collisions did not end in %d sweeps", rule->step,
+              CONTACTS_MAX_SWEEPS);
     for (size_t w = 0; w < found; w++) {
         const struct contact *k = &c->contact[worst[w]];
         int32_t other = k->wall < 0 ? g->id[k->j] : -1 - k->wall;
@@ -232,11 +244,13 @@ static void tally_step(struct contacts *c, const struct grains *g, int sweeps) {
     struct contact_tally *t = &c->tally;
     t->last_sweeps = sweeps;
     t->sweeps += sweeps;
-    if (sweeps > t->most_sweeps) t->most_sweeps = sweeps;
+    if (sweeps > t->most_sweeps)
+        t->most_sweeps = sweeps;
     float deepest = 0;
     for (size_t n = 0; n < c->count; n++) {
         const struct contact *k = &c->contact[n];
-        if (k->overlap > deepest) deepest = k->overlap;
+        if (k->overlap > deepest)
+            deepest = k->overlap;
         if (k->wall < 0) {
             t->virial += k->impulse * k->distance;
             c->virial_field[site_of_pair(c, g, k)] += k->impulse * k->distance;
@@ -250,16 +264,21 @@ static void tally_step(struct contacts *c, const struct grains *g, int sweeps) {
 
 enum status contacts_resolve(struct contacts *c, struct grains *g, const struct contact_rule *rule,
                              struct fault *fault) {
-    if (neighbours_update(&c->neighbours, g, fault) != STATUS_OK) return fault->status;
-    if (find_contacts(c, g, rule->threshold, fault) != STATUS_OK) return fault->status;
+    if (neighbours_update(&c->neighbours, g, fault) != STATUS_OK)
+        return fault->status;
+    if (find_contacts(c, g, rule->threshold, fault) != STATUS_OK)
+        return fault->status;
     find_adjacent(c, g->count);
     g->vx[g->count] = g->vy[g->count] = 0;
-    if (c->count > 0) memset(c->todo, 0xff, words(c->count) * sizeof *c->todo);
-    if (c->count % 64) c->todo[c->count / 64] = ((uint64_t)1 << (c->count % 64)) - 1;
+    if (c->count > 0)
+        memset(c->todo, 0xff, words(c->count) * sizeof *c->todo);
+    if (c->count % 64)
+        c->todo[c->count / 64] = ((uint64_t)1 << (c->count % 64)) - 1;
     int sweeps = 0;
     bool again = c->count > 0;
     while (again) {
-        if (sweeps == CONTACTS_MAX_SWEEPS) return too_many_sweeps(c, g, rule, fault);
+        if (sweeps == CONTACTS_MAX_SWEEPS)
+            return too_many_sweeps(c, g, rule, fault);
         again = sweeps++ % 2 ? sweep_down(c, g, rule) : sweep_up(c, g, rule);
     }
     g->last_hit[g->count] = GRAINS_NEVER_HIT;

@@ -29,44 +29,44 @@ enum { CONTACTS_MAX_SWEEPS = 100000 };
 #define CONTACTS_REST_OVERLAP 0.04 /* of the largest diameter */
 
 struct contact {
-    int32_t i, j;           /* grains; j == grain count: a wall */
-    int32_t wall;           /* which, or -1 */
-    float overlap;          /* (l) */
-    double nx, ny;          /* unit normal, from j to i */
-    double distance;        /* between centres, or from centre to wall (l) */
-    double rest, support;   /* approach that needs no collision; least speed of leaving (U0) */
-    double impulse;         /* exchanged in this step (l^2 U0) */
+    int32_t i, j;         /* grains; j == grain count: a wall */
+    int32_t wall;         /* which, or -1 */
+    float overlap;        /* (l) */
+    double nx, ny;        /* unit normal, from j to i */
+    double distance;      /* between centres, or from centre to wall (l) */
+    double rest, support; /* approach that needs no collision; least speed of leaving (U0) */
+    double impulse;       /* exchanged in this step (l^2 U0) */
 };
 
 /* Sums since the start of the run. */
 struct contact_tally {
     long long collisions, elastic, sweeps;
-    double dissipated;              /* energy (l^2 U0^2) */
-    double virial;                  /* sum of impulse times distance over pairs (l^3 U0) */
+    double dissipated;               /* energy (l^2 U0^2) */
+    double virial;                   /* sum of impulse times distance over pairs (l^3 U0) */
     double wall_impulse[WALL_COUNT]; /* normal impulse taken by each wall (l^2 U0) */
-    double wall_virial[WALL_COUNT]; /* impulse times distance from the wall (l^3 U0) */
-    double largest_overlap;         /* of the last step (l) */
-    int last_sweeps, most_sweeps;   /* of the last step, of any step */
+    double wall_virial[WALL_COUNT];  /* impulse times distance from the wall (l^3 U0) */
+    double largest_overlap;          /* of the last step (l) */
+    int last_sweeps, most_sweeps;    /* of the last step, of any step */
 };
 
 struct contacts {
     struct neighbours neighbours;
-    struct contact *contact;        /* contact[0 .. count-1] of this step */
+    struct contact *contact; /* contact[0 .. count-1] of this step */
     size_t count, capacity;
-    uint64_t *todo;                 /* one bit a contact */
-    int32_t *adjacent_first;        /* [0 .. grains+1] */
-    int32_t *adjacent;              /* contacts of each grain */
-    double rest_overlap;            /* overlap at which no approach counts as rest (l) */
-    double *virial_field;           /* virial by nearest lattice site of the pair's middle;
-                                     * [0 .. sites-1], row by row from the floor (l^3 U0) */
-    int sites_x;                    /* sites a row */
+    uint64_t *todo;          /* one bit a contact */
+    int32_t *adjacent_first; /* [0 .. grains+1] */
+    int32_t *adjacent;       /* contacts of each grain */
+    double rest_overlap;     /* overlap at which no approach counts as rest (l) */
+    double *virial_field;    /* virial by nearest lattice site of the pair's middle;
+                              * [0 .. sites-1], row by row from the floor (l^3 U0) */
+    int sites_x;             /* sites a row */
     struct contact_tally tally;
 };
 
 struct contact_rule {
     double restitution;
-    double threshold;               /* approach speed that counts as rest (U0) */
-    long long step;                 /* number of this step, for the rule's memory */
+    double threshold; /* approach speed that counts as rest (U0) */
+    long long step;   /* number of this step, for the rule's memory */
 };
 
 enum status contacts_create(struct contacts *c, size_t grains, double width, double height,

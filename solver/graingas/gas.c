@@ -9,7 +9,8 @@ static void spread_fixed_bed(struct gas *gas, const struct list *bands) {
     const struct lattice *l = gas->lattice;
     for (int j = 0; j < l->ny && bands->count > 0; j++) {
         size_t band = (size_t)j * bands->count / (size_t)(l->ny - 1);
-        if (band == bands->count) band--;
+        if (band == bands->count)
+            band--;
         for (int i = 0; i < l->nx; i++)
             gas->fixed_fraction[(size_t)j * (size_t)l->nx + (size_t)i] = bands->value[band];
     }
@@ -27,16 +28,26 @@ static void start_pressure(struct gas *gas, const struct graingas_parameters *p)
 enum status gas_create(struct gas *gas, const struct lattice *l,
                        const struct graingas_parameters *p, struct fault *fault) {
     *gas = (struct gas){.lattice = l};
-    double **array[] = {&gas->fixed_fraction, &gas->solid_fraction, &gas->clipped,
-                        &gas->coefficient,    &gas->ux,             &gas->uy,
-                        &gas->pressure,       &gas->east,           &gas->north,
-                        &gas->mass,           &gas->rhs};
+    double **array[] = {&gas->fixed_fraction,
+                        &gas->solid_fraction,
+                        &gas->clipped,
+                        &gas->coefficient,
+                        &gas->ux,
+                        &gas->uy,
+                        &gas->pressure,
+                        &gas->east,
+                        &gas->north,
+                        &gas->mass,
+                        &gas->rhs};
     for (size_t i = 0; i < sizeof array / sizeof *array; i++)
-        if (!(*array[i] = calloc(l->sites, sizeof(double)))) goto no_memory;
+        if (!(*array[i] = calloc(l->sites, sizeof(double))))
+            goto no_memory;
     gas->pull = calloc(l->sites, sizeof *gas->pull);
     gas->load = calloc(l->sites, sizeof *gas->load);
-    if (!gas->pull || !gas->load) goto no_memory;
-    if (multigrid_create(&gas->solver, l->nx, l->ny, fault) != STATUS_OK) goto failed;
+    if (!gas->pull || !gas->load)
+        goto no_memory;
+    if (multigrid_create(&gas->solver, l->nx, l->ny, fault) != STATUS_OK)
+        goto failed;
     spread_fixed_bed(gas, &p->fixed_bed);
     start_pressure(gas, p);
     return STATUS_OK;
@@ -48,18 +59,18 @@ failed:
 }
 
 void gas_free(struct gas *gas) {
-    double *array[] = {gas->fixed_fraction, gas->solid_fraction, gas->clipped, gas->coefficient,
-                       gas->ux,             gas->uy,             gas->pressure, gas->east,
-                       gas->north,          gas->mass,           gas->rhs};
-    for (size_t i = 0; i < sizeof array / sizeof *array; i++) free(array[i]);
+    double *array[] = {
+        gas->fixed_fraction, gas->solid_fraction, gas->clipped, gas->coefficient, gas->ux, gas->uy,
+        gas->pressure,       gas->east,           gas->north,   gas->mass,        gas->rhs};
+    for (size_t i = 0; i < sizeof array / sizeof *array; i++)
+        free(array[i]);
     free(gas->pull);
     free(gas->load);
     multigrid_free(gas->solver);
     *gas = (struct gas){0};
 }
 
-void gas_take_grains(struct gas *gas, const struct graingas_parameters *p,
-                     const struct grains *g) {
+void gas_take_grains(struct gas *gas, const struct graingas_parameters *p, const struct grains *g) {
     const struct lattice *l = gas->lattice;
     halo_deposit(l, g, gas->load);
     for (size_t k = 0; k < l->sites; k++) {
@@ -111,12 +122,14 @@ static void subtract_divergence(struct gas *gas, const struct graingas_parameter
             size_t k = (size_t)j * nx + (size_t)i;
             double here = full ? 1 + gas->pressure[k] : 1;
             if (i + 1 < l->nx) {
-                double flow = p->peclet * face_length(j, l->ny) * 0.5 * (gas->ux[k] + gas->ux[k + 1]);
+                double flow =
+                    p->peclet * face_length(j, l->ny) * 0.5 * (gas->ux[k] + gas->ux[k + 1]);
                 rhs[k] -= here * flow;
                 rhs[k + 1] += (full ? 1 + gas->pressure[k + 1] : 1) * flow;
             }
             if (j + 1 < l->ny) {
-                double flow = p->peclet * face_length(i, l->nx) * 0.5 * (gas->uy[k] + gas->uy[k + nx]);
+                double flow =
+                    p->peclet * face_length(i, l->nx) * 0.5 * (gas->uy[k] + gas->uy[k + nx]);
                 rhs[k] -= here * flow;
                 rhs[k + nx] += (full ? 1 + gas->pressure[k + nx] : 1) * flow;
             }
@@ -166,7 +179,8 @@ enum status gas_step(struct gas *gas, const struct graingas_parameters *p, doubl
     set_faces(gas, p);
     set_accumulation(gas, p);
     subtract_divergence(gas, p);
-    if (flux != 0) inject(gas, p, flux);
+    if (flux != 0)
+        inject(gas, p, flux);
     multigrid_set(gas->solver, gas->east, gas->north, gas->mass);
     if (multigrid_solve(gas->solver, gas->rhs, p->pressure_tolerance, gas->pressure, &gas->outcome,
                         fault) == STATUS_OK)
@@ -194,7 +208,8 @@ void gas_find_pull(struct gas *gas, const struct graingas_parameters *p) {
 
 double gas_densest(const struct gas *gas) {
     double most = 0;
-    for (size_t k = 0; k < gas->lattice->sites; k++) most = fmax(most, gas->solid_fraction[k]);
+    for (size_t k = 0; k < gas->lattice->sites; k++)
+        most = fmax(most, gas->solid_fraction[k]);
     return most;
 }
 

@@ -27,17 +27,17 @@
 #include "solver/graingas/parameters.h"
 
 struct gas {
-    const struct lattice *lattice;  /* borrowed */
+    const struct lattice *lattice; /* borrowed */
     struct multigrid *solver;
     /* All arrays [0 .. sites-1]. */
-    double *fixed_fraction;         /* immobile packing (1) */
-    double *solid_fraction;         /* grains and immobile packing (1), not clipped */
-    double *clipped;                /* max(solid_fraction, rho_min) */
-    double *coefficient;            /* K(clipped) */
-    double *ux, *uy;                /* grain velocity field (U0), flux over clipped fraction */
-    double *pressure;               /* p (P0) */
+    double *fixed_fraction; /* immobile packing (1) */
+    double *solid_fraction; /* grains and immobile packing (1), not clipped */
+    double *clipped;        /* max(solid_fraction, rho_min) */
+    double *coefficient;    /* K(clipped) */
+    double *ux, *uy;        /* grain velocity field (U0), flux over clipped fraction */
+    double *pressure;       /* p (P0) */
     double *east, *north, *mass, *rhs;
-    struct site_pull *pull;         /* acceleration given to grains (U0/tau) */
+    struct site_pull *pull; /* acceleration given to grains (U0/tau) */
     struct site_load *load;
     struct multigrid_outcome outcome; /* of the last solve */
 };
@@ -47,8 +47,7 @@ enum status gas_create(struct gas *gas, const struct lattice *l,
 void gas_free(struct gas *gas);
 
 /* Solid fraction, permeability and grain velocity field from the grains. */
-void gas_take_grains(struct gas *gas, const struct graingas_parameters *p,
-                     const struct grains *g);
+void gas_take_grains(struct gas *gas, const struct graingas_parameters *p, const struct grains *g);
 
 /* Pressure one step later; flux in l/tau.  STATUS_NUMERICAL with the range of
  * coefficients where the solve fails. */

@@ -10,7 +10,8 @@
 
 static void graingas_free(void *state) {
     struct graingas *s = state;
-    if (!s) return;
+    if (!s)
+        return;
     lattice_free(&s->lattice);
     grains_free(&s->grains);
     gas_free(&s->gas);
@@ -35,7 +36,8 @@ static enum status graingas_create(void **state, const struct parameter_set *p,
                                    struct h5_reader *start, uint64_t seed, struct fault *fault) {
     *state = NULL;
     struct graingas *s = calloc(1, sizeof *s);
-    if (!s) return fault_set(fault, STATUS_NO_MEMORY, "no memory for the grain-gas state");
+    if (!s)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for the grain-gas state");
     const struct graingas_parameters *v = &s->parameters;
     if (graingas_parameters_read(p, &s->parameters, fault) != STATUS_OK ||
         lattice_create(&s->lattice, v->width_l, v->height_l, fault) != STATUS_OK ||
@@ -133,7 +135,8 @@ static enum status graingas_step(void *state, struct fault *fault) {
     if (s->parameters.gas != GAS_NONE && move_gas(s, &clock, fault) != STATUS_OK)
         return fault->status;
     bool held = graingas_time(s) + 0.5 * s->parameters.dt_tau < s->parameters.hold_tau;
-    if (!held && move_grains(s, &clock, fault) != STATUS_OK) return fault->status;
+    if (!held && move_grains(s, &clock, fault) != STATUS_OK)
+        return fault->status;
     s->step++;
     return STATUS_OK;
 }

@@ -21,13 +21,13 @@ struct graingas {
     struct grains grains;
     struct gas gas;
     struct contacts contacts;
-    double *ax, *ay;                 /* from the gas, [0 .. grains-1] (U0/tau) */
+    double *ax, *ay; /* from the gas, [0 .. grains-1] (U0/tau) */
     long long step;
-    double start_collisions;         /* of the equilibration, per grain */
-    long long pressure_cycles;       /* since the start */
-    double seconds[PART_COUNT];      /* CPU time by part */
-    long long seen_collisions;       /* at the last cost report */
-    double *scratch;                 /* room for 4 values a grain, for observe */
+    double start_collisions;    /* of the equilibration, per grain */
+    long long pressure_cycles;  /* since the start */
+    double seconds[PART_COUNT]; /* CPU time by part */
+    long long seen_collisions;  /* at the last cost report */
+    double *scratch;            /* room for 4 values a grain, for observe */
     char notice[160];
 };
 

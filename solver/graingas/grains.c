@@ -9,11 +9,13 @@ enum status grains_create(struct grains *g, size_t count, struct fault *fault) {
     double **real[] = {&g->x,      &g->y,    &g->vx,           &g->vy,
                        &g->radius, &g->area, &g->inverse_mass, &g->scratch};
     for (size_t i = 0; i < sizeof real / sizeof *real; i++)
-        if (!(*real[i] = calloc(count + 1, sizeof(double)))) goto no_memory;
+        if (!(*real[i] = calloc(count + 1, sizeof(double))))
+            goto no_memory;
     g->last_hit = calloc(count + 1, sizeof *g->last_hit);
     g->id = calloc(count + 1, sizeof *g->id);
     g->species = calloc(count + 1, sizeof *g->species);
-    if (!g->last_hit || !g->id || !g->species) goto no_memory;
+    if (!g->last_hit || !g->id || !g->species)
+        goto no_memory;
     for (size_t i = 0; i <= count; i++) {
         g->id[i] = (int32_t)i;
         g->last_hit[i] = GRAINS_NEVER_HIT;

@@ -14,15 +14,15 @@
 
 struct grains {
     size_t count;
-    double *x, *y;          /* centres, x[0 .. count-1] (l) */
-    double *vx, *vy;        /* velocities, [0 .. count] (U0); entry count: the walls */
-    double *radius;         /* radius[0 .. count-1] (l) */
-    double *area;           /* pi radius^2, which is also the mass (l^2) */
-    double *inverse_mass;   /* [0 .. count] (1/l^2); entry count: 0, the walls */
-    int64_t *last_hit;      /* step of the last collision, [0 .. count] */
-    int32_t *id;            /* id[0 .. count-1], from 0 */
-    int32_t *species;       /* species[0 .. count-1], 0 or 1 */
-    double *scratch;        /* room for a permutation, scratch[0 .. count-1] */
+    double *x, *y;        /* centres, x[0 .. count-1] (l) */
+    double *vx, *vy;      /* velocities, [0 .. count] (U0); entry count: the walls */
+    double *radius;       /* radius[0 .. count-1] (l) */
+    double *area;         /* pi radius^2, which is also the mass (l^2) */
+    double *inverse_mass; /* [0 .. count] (1/l^2); entry count: 0, the walls */
+    int64_t *last_hit;    /* step of the last collision, [0 .. count] */
+    int32_t *id;          /* id[0 .. count-1], from 0 */
+    int32_t *species;     /* species[0 .. count-1], 0 or 1 */
+    double *scratch;      /* room for a permutation, scratch[0 .. count-1] */
 };
 
 enum { GRAINS_NEVER_HIT = -1000 };

@@ -36,8 +36,10 @@ long halo_first_outside(const struct lattice *l, const struct grains *g) {
  * a grain exactly on the far wall belongs to the last cell. */
 static inline size_t cell_of(const struct lattice *l, double x, double y, double *fx, double *fy) {
     int i = (int)x, j = (int)y;
-    if (i > l->nx - 2) i = l->nx - 2;
-    if (j > l->ny - 2) j = l->ny - 2;
+    if (i > l->nx - 2)
+        i = l->nx - 2;
+    if (j > l->ny - 2)
+        j = l->ny - 2;
     *fx = x - i;
     *fy = y - j;
     return (size_t)j * (size_t)l->nx + (size_t)i;

@@ -20,8 +20,8 @@
 
 struct lattice {
     int nx, ny;
-    size_t sites;           /* nx * ny */
-    double *volume;         /* volume[0 .. sites-1] (l^2): 1, 1/2 at walls, 1/4 in corners */
+    size_t sites;   /* nx * ny */
+    double *volume; /* volume[0 .. sites-1] (l^2): 1, 1/2 at walls, 1/4 in corners */
 };
 
 /* A box of width x height l; sites are one more each way. */
@@ -30,12 +30,12 @@ void lattice_free(struct lattice *l);
 
 /* What a site carries, together so that one cache line serves a deposit. */
 struct site_load {
-    double area;            /* sum of grain area times weight (l^2) */
-    double flux_x, flux_y;  /* the same times grain velocity (l^2 U0) */
+    double area;           /* sum of grain area times weight (l^2) */
+    double flux_x, flux_y; /* the same times grain velocity (l^2 U0) */
     double unused;
 };
 struct site_pull {
-    double x, y;            /* acceleration that the gas gives a grain there (U0/tau) */
+    double x, y; /* acceleration that the gas gives a grain there (U0/tau) */
 };
 
 /* Index of the grain that left the box, or -1 when all are inside. */

@@ -10,15 +10,15 @@ enum { MAX_LEVELS = 16, MAX_CYCLES = 100 };
  * share it) and one row below and above, so that no site needs a branch. */
 struct level {
     int nx, ny;
-    ptrdiff_t stride, size;            /* stride = nx + 1 */
-    double *east, *north;              /* faces of a site, 0 where they would leave the box */
+    ptrdiff_t stride, size; /* stride = nx + 1 */
+    double *east, *north;   /* faces of a site, 0 where they would leave the box */
     double *mass, *inverse_diagonal;
     double *x, *b;
 };
 
 struct multigrid {
     int levels;
-    struct level level[MAX_LEVELS];    /* level[0] is the finest */
+    struct level level[MAX_LEVELS];                  /* level[0] is the finest */
     double *residual, *direction, *product, *answer; /* conjugate gradients, bordered */
     double *memory;
 };
@@ -34,7 +34,8 @@ static ptrdiff_t bordered_size(int nx, int ny) {
 enum status multigrid_create(struct multigrid **out, int nx, int ny, struct fault *fault) {
     *out = NULL;
     struct multigrid *m = calloc(1, sizeof *m);
-    if (!m) return fault_set(fault, STATUS_NO_MEMORY, "no memory for the pressure solver");
+    if (!m)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for the pressure solver");
     ptrdiff_t total = 4 * bordered_size(nx, ny);
     for (int cx = nx, cy = ny;; cx = (cx + 1) / 2, cy = (cy + 1) / 2) {
         struct level *l = &m->level[m->levels++];
@@ -43,27 +44,31 @@ enum status multigrid_create(struct multigrid **out, int nx, int ny, struct faul
         l->stride = cx + 1;
         l->size = bordered_size(cx, cy);
         total += 6 * l->size;
-        if (cx == 1 && cy == 1) break;
+        if (cx == 1 && cy == 1)
+            break;
     }
     double *next = m->memory = calloc((size_t)total, sizeof(double));
     if (!next) {
         multigrid_free(m);
-        return fault_set(fault, STATUS_NO_MEMORY, "no memory for the pressure on %d x %d sites",
-                         nx, ny);
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for the pressure on %d x %d sites", nx,
+                         ny);
     }
     for (int k = 0; k < m->levels; k++) {
         struct level *l = &m->level[k];
         double **array[] = {&l->east, &l->north, &l->mass, &l->inverse_diagonal, &l->x, &l->b};
-        for (size_t a = 0; a < 6; a++, next += l->size) *array[a] = next;
+        for (size_t a = 0; a < 6; a++, next += l->size)
+            *array[a] = next;
     }
     double **fine[] = {&m->residual, &m->direction, &m->product, &m->answer};
-    for (size_t a = 0; a < 4; a++, next += m->level[0].size) *fine[a] = next;
+    for (size_t a = 0; a < 4; a++, next += m->level[0].size)
+        *fine[a] = next;
     *out = m;
     return STATUS_OK;
 }
 
 void multigrid_free(struct multigrid *m) {
-    if (!m) return;
+    if (!m)
+        return;
     free(m->memory);
     free(m);
 }
@@ -87,10 +92,12 @@ static void coarsen(const struct level *f, struct level *c) {
             int wide = span(f->nx, i), high = span(f->ny, j);
             double mass = 0, east = 0, north = 0;
             for (int b = 0; b < high; b++) {
-                for (int a = 0; a < wide; a++) mass += f->mass[site(f, 2 * i + a, 2 * j + b)];
+                for (int a = 0; a < wide; a++)
+                    mass += f->mass[site(f, 2 * i + a, 2 * j + b)];
                 east += f->east[site(f, 2 * i + wide - 1, 2 * j + b)];
             }
-            for (int a = 0; a < wide; a++) north += f->north[site(f, 2 * i + a, 2 * j + high - 1)];
+            for (int a = 0; a < wide; a++)
+                north += f->north[site(f, 2 * i + a, 2 * j + high - 1)];
             c->mass[k] = mass;
             c->east[k] = i + 1 < c->nx ? east * 2 / (wide + span(f->nx, i + 1)) : 0;
             c->north[k] = j + 1 < c->ny ? north * 2 / (high + span(f->ny, j + 1)) : 0;
@@ -157,7 +164,8 @@ static void add_correction(const struct level *c, struct level *f) {
     for (int j = 0; j < f->ny; j++) {
         const double *from = c->x + site(c, 0, j / 2);
         double *to = f->x + site(f, 0, j);
-        for (int i = 0; i < f->nx; i++) to[i] += from[i / 2];
+        for (int i = 0; i < f->nx; i++)
+            to[i] += from[i / 2];
     }
 }
 
@@ -173,7 +181,8 @@ static void cycle(struct multigrid *m) {
         restrict_residual(l, &m->level[k + 1]);
     }
     struct level *last = &m->level[m->levels - 1];
-    last->x[site(last, 0, 0)] = last->b[site(last, 0, 0)] * last->inverse_diagonal[site(last, 0, 0)];
+    last->x[site(last, 0, 0)] =
+        last->b[site(last, 0, 0)] * last->inverse_diagonal[site(last, 0, 0)];
     for (int k = m->levels - 2; k >= 0; k--) {
         struct level *l = &m->level[k];
         add_correction(&m->level[k + 1], l);
@@ -203,8 +212,10 @@ static double dot(const double *a, const double *b, ptrdiff_t count) {
     double sum[4] = {0};
     ptrdiff_t k = 0;
     for (; k + 4 <= count; k += 4)
-        for (int c = 0; c < 4; c++) sum[c] += a[k + c] * b[k + c];
-    for (; k < count; k++) sum[0] += a[k] * b[k];
+        for (int c = 0; c < 4; c++)
+            sum[c] += a[k + c] * b[k + c];
+    for (; k < count; k++)
+        sum[0] += a[k] * b[k];
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
@@ -243,7 +254,8 @@ enum status multigrid_solve(struct multigrid *m, const double *b, double toleran
     unpack(l, b, m->residual);
     double b_norm = sqrt(dot(m->residual, m->residual, l->size));
     multiply(l, m->answer, m->product);
-    for (ptrdiff_t k = 0; k < l->size; k++) m->residual[k] -= m->product[k];
+    for (ptrdiff_t k = 0; k < l->size; k++)
+        m->residual[k] -= m->product[k];
     double norm = sqrt(dot(m->residual, m->residual, l->size));
     double rho = 0;
     int n = 0;
@@ -257,7 +269,8 @@ enum status multigrid_solve(struct multigrid *m, const double *b, double toleran
     }
     pack(l, m->answer, x);
     *outcome = (struct multigrid_outcome){n, b_norm > 0 ? norm / b_norm : norm};
-    if (norm <= tolerance * b_norm) return STATUS_OK;
+    if (norm <= tolerance * b_norm)
+        return STATUS_OK;
     return fault_set(fault, STATUS_NUMERICAL,
                      "the pressure did not converge: residual %.3g after %d cycles, %.3g asked",
                      outcome->residual, n, tolerance);

@@ -9,8 +9,10 @@ enum status neighbours_create(struct neighbours *n, size_t count, double width, 
     n->skin = 0.2 * diameter_max;
     n->columns = (int)(width / (diameter_max + n->skin));
     n->rows = (int)(height / (diameter_max + n->skin));
-    if (n->columns < 1) n->columns = 1;
-    if (n->rows < 1) n->rows = 1;
+    if (n->columns < 1)
+        n->columns = 1;
+    if (n->rows < 1)
+        n->rows = 1;
     n->capacity = 4 * count + 16;
     n->cell_start = calloc((size_t)n->columns * (size_t)n->rows + 1, sizeof *n->cell_start);
     n->cell_of = calloc(count + 1, sizeof *n->cell_of);
@@ -52,8 +54,10 @@ static void sort_into_cells(struct neighbours *n, struct grains *g) {
         n->cell_of[i] = cy * n->columns + cx;
         start[n->cell_of[i] + 1]++;
     }
-    for (size_t c = 0; c < cells; c++) start[c + 1] += start[c];
-    for (size_t i = 0; i < n->count; i++) n->order[start[n->cell_of[i]]++] = (int32_t)i;
+    for (size_t c = 0; c < cells; c++)
+        start[c + 1] += start[c];
+    for (size_t i = 0; i < n->count; i++)
+        n->order[start[n->cell_of[i]]++] = (int32_t)i;
     memmove(start + 1, start, cells * sizeof *start); /* ends of cells back to starts */
     start[0] = 0;
     grains_permute(g, n->order);
@@ -72,10 +76,12 @@ static size_t collect_run(const struct neighbours *n, const struct grains *g, si
 }
 
 static enum status make_room(struct neighbours *n, size_t needed, struct fault *fault) {
-    if (needed <= n->capacity) return STATUS_OK;
+    if (needed <= n->capacity)
+        return STATUS_OK;
     size_t capacity = 2 * needed;
     int32_t *grown = realloc(n->other, capacity * sizeof *grown);
-    if (!grown) return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu pairs", capacity);
+    if (!grown)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu pairs", capacity);
     n->other = grown;
     n->capacity = capacity;
     return STATUS_OK;
@@ -93,7 +99,8 @@ static enum status collect_cell(struct neighbours *n, const struct grains *g, in
     size_t above_end = top ? 0 : (size_t)start[above_right + 1];
     for (size_t i = (size_t)start[c]; i < (size_t)start[c + 1]; i++) {
         size_t end = (size_t)start[right + 1], candidates = end - i + above_end - above;
-        if (make_room(n, *pairs + candidates, fault) != STATUS_OK) return fault->status;
+        if (make_room(n, *pairs + candidates, fault) != STATUS_OK)
+            return fault->status;
         n->first[i] = *pairs;
         *pairs += collect_run(n, g, i, i + 1, end, n->other + *pairs);
         *pairs += collect_run(n, g, i, above, above_end, n->other + *pairs);
@@ -103,21 +110,25 @@ static enum status collect_cell(struct neighbours *n, const struct grains *g, in
 
 static bool is_stale(const struct neighbours *n, const struct grains *g) {
     double limit = 0.25 * n->skin * n->skin;
-    if (!n->built) return true;
+    if (!n->built)
+        return true;
     for (size_t i = 0; i < n->count; i++) {
         double dx = g->x[i] - n->x[i], dy = g->y[i] - n->y[i];
-        if (dx * dx + dy * dy > limit) return true;
+        if (dx * dx + dy * dy > limit)
+            return true;
     }
     return false;
 }
 
 enum status neighbours_update(struct neighbours *n, struct grains *g, struct fault *fault) {
-    if (!is_stale(n, g)) return STATUS_OK;
+    if (!is_stale(n, g))
+        return STATUS_OK;
     sort_into_cells(n, g);
     size_t pairs = 0;
     for (int cy = 0; cy < n->rows; cy++)
         for (int cx = 0; cx < n->columns; cx++)
-            if (collect_cell(n, g, cx, cy, &pairs, fault) != STATUS_OK) return fault->status;
+            if (collect_cell(n, g, cx, cy, &pairs, fault) != STATUS_OK)
+                return fault->status;
     n->first[n->count] = pairs;
     memcpy(n->x, g->x, n->count * sizeof *n->x);
     memcpy(n->y, g->y, n->count * sizeof *n->y);

@@ -17,14 +17,14 @@
 #include <stdbool.h>
 
 struct neighbours {
-    double width, height, skin, cell;  /* (l) */
+    double width, height, skin, cell; /* (l) */
     int columns, rows;
-    size_t count;                      /* grains */
-    int32_t *cell_start;               /* cell_start[0 .. columns*rows] */
-    int32_t *cell_of, *order;          /* [0 .. count-1] */
-    double *x, *y;                     /* positions at the last rebuild */
-    size_t *first;                     /* pairs of grain i: other[first[i] .. first[i+1]-1] */
-    int32_t *other;                    /* grown as needed, at a rebuild */
+    size_t count;             /* grains */
+    int32_t *cell_start;      /* cell_start[0 .. columns*rows] */
+    int32_t *cell_of, *order; /* [0 .. count-1] */
+    double *x, *y;            /* positions at the last rebuild */
+    size_t *first;            /* pairs of grain i: other[first[i] .. first[i+1]-1] */
+    int32_t *other;           /* grown as needed, at a rebuild */
     size_t capacity;
     long long rebuilds;
     bool built;

@@ -16,30 +16,36 @@ const struct dataset graingas_datasets[] = {
     {"particles/grains/species", DATASET_ONCE, "[grains]: layer colour, 0 or 1"},
     {"particles/grains/position", DATASET_PARTICLES, "[grains][2]: centres (l)"},
     {"particles/grains/velocity", DATASET_PARTICLES, "[grains][2] (U0)"},
-    {"particles/grains/force", DATASET_PARTICLES, "[grains][2]: of the gas, mass Fr a (l^2 rho_g g)"},
+    {"particles/grains/force", DATASET_PARTICLES,
+     "[grains][2]: of the gas, mass Fr a (l^2 rho_g g)"},
     {"fields/solid_fraction", DATASET_SAMPLES, "[ny][nx]: volume fraction, not clipped (1)"},
     {"fields/pressure", DATASET_SAMPLES, "[ny][nx]: P/P0 - 1 (P0)"},
     {"fields/grain_velocity", DATASET_SAMPLES, "[ny][nx][2]: flux over clipped fraction (U0)"},
-    {"fields/collision_virial", DATASET_SAMPLES, "[ny][nx]: since the start, at pair centres (l^3 U0)"},
+    {"fields/collision_virial", DATASET_SAMPLES,
+     "[ny][nx]: since the start, at pair centres (l^3 U0)"},
     {"observables/collisions", DATASET_SAMPLES, "since the start, walls included (1)"},
     {"observables/elastic_collisions", DATASET_SAMPLES, "those that conserved energy (1)"},
     {"observables/dissipated_energy", DATASET_SAMPLES, "in collisions, since the start (l^2 U0^2)"},
     {"observables/sweeps_max", DATASET_SAMPLES, "most sweeps of any step so far (1)"},
     {"observables/pressure_iterations", DATASET_SAMPLES, "of the last step (1)"},
     {"observables/largest_overlap", DATASET_SAMPLES, "of the last step (l)"},
-    {"observables/wall_impulse", DATASET_SAMPLES, "[4]: left, right, bottom, top, since the start (l^2 U0)"},
-    {"observables/wall_virial", DATASET_SAMPLES, "[4]: impulse times distance from the wall (l^3 U0)"},
-    {"observables/collision_virial", DATASET_SAMPLES, "pairs' impulse times distance, since the start (l^3 U0)"},
+    {"observables/wall_impulse", DATASET_SAMPLES,
+     "[4]: left, right, bottom, top, since the start (l^2 U0)"},
+    {"observables/wall_virial", DATASET_SAMPLES,
+     "[4]: impulse times distance from the wall (l^3 U0)"},
+    {"observables/collision_virial", DATASET_SAMPLES,
+     "pairs' impulse times distance, since the start (l^3 U0)"},
     {"observables/solid_fraction_max", DATASET_SAMPLES, "of any site (1)"},
     {"observables/drag_rate_max", DATASET_SAMPLES, "largest drag rate of any site (1/tau)"},
     {"observables/kinetic_energy", DATASET_SAMPLES, "(l^2 U0^2)"},
     {"observables/potential_energy", DATASET_SAMPLES, "mass gravity height/Fr (l^2 U0^2)"},
-    {"observables/unabsorbed_force", DATASET_SAMPLES, "[2]: of the gas where rho < rho_min (l^2 rho_g g)"},
+    {"observables/unabsorbed_force", DATASET_SAMPLES,
+     "[2]: of the gas where rho < rho_min (l^2 rho_g g)"},
     {NULL, DATASET_SAMPLES, NULL}};
 
 /* One sample with the state's step and time. */
-static enum status append(const struct graingas *s, struct h5_writer *w, const char *name,
-                          int rank, const size_t *dims, const double *data, const char *unit,
+static enum status append(const struct graingas *s, struct h5_writer *w, const char *name, int rank,
+                          const size_t *dims, const double *data, const char *unit,
                           struct fault *fault) {
     return h5_append(w, name, H5_REAL, rank, dims, data, unit, s->step, graingas_time(s), "tau",
                      fault);
@@ -55,7 +61,8 @@ static enum status append_scalar(const struct graingas *s, struct h5_writer *w, 
 static enum status write_once(struct graingas *s, struct h5_writer *w, const char *name,
                               const double *value, const char *unit, struct fault *fault) {
     const struct grains *g = &s->grains;
-    for (size_t i = 0; i < g->count; i++) s->scratch[g->id[i]] = value[i];
+    for (size_t i = 0; i < g->count; i++)
+        s->scratch[g->id[i]] = value[i];
     return h5_write(w, name, H5_REAL, 1, &g->count, s->scratch, unit, fault);
 }
 
@@ -63,7 +70,8 @@ static enum status write_integers(struct graingas *s, struct h5_writer *w, const
                                   const int32_t *value, struct fault *fault) {
     const struct grains *g = &s->grains;
     int64_t *out = (int64_t *)(void *)s->scratch;
-    for (size_t i = 0; i < g->count; i++) out[g->id[i]] = value[i];
+    for (size_t i = 0; i < g->count; i++)
+        out[g->id[i]] = value[i];
     return h5_write(w, name, H5_INTEGER, 1, &g->count, out, "1", fault);
 }
 
@@ -98,10 +106,14 @@ static enum status observe_particles(struct graingas *s, const char *name, struc
                                      struct fault *fault) {
     struct grains *g = &s->grains;
     const char *what = strrchr(name, '/') + 1;
-    if (!strcmp(what, "id")) return write_integers(s, w, name, g->id, fault);
-    if (!strcmp(what, "species")) return write_integers(s, w, name, g->species, fault);
-    if (!strcmp(what, "radius")) return write_once(s, w, name, g->radius, "l", fault);
-    if (!strcmp(what, "mass")) return write_once(s, w, name, g->area, "l^2", fault);
+    if (!strcmp(what, "id"))
+        return write_integers(s, w, name, g->id, fault);
+    if (!strcmp(what, "species"))
+        return write_integers(s, w, name, g->species, fault);
+    if (!strcmp(what, "radius"))
+        return write_once(s, w, name, g->radius, "l", fault);
+    if (!strcmp(what, "mass"))
+        return write_once(s, w, name, g->area, "l^2", fault);
     if (!strcmp(what, "velocity"))
         return append_vectors(s, w, name, g->vx, g->vy, NULL, "U0", fault);
     if (!strcmp(what, "position")) {
@@ -136,7 +148,8 @@ static enum status observe_fields(struct graingas *s, const char *name, struct h
     if (h5_attribute_reals(w, "fields", "spacing", (double[]){1, 1}, 2, fault) ||
         h5_attribute_reals(w, "fields", "origin", (double[]){0, 0}, 2, fault))
         return fault->status;
-    if (!strcmp(what, "pressure")) return append(s, w, name, 2, dims, s->gas.pressure, "P0", fault);
+    if (!strcmp(what, "pressure"))
+        return append(s, w, name, 2, dims, s->gas.pressure, "P0", fault);
     if (!strcmp(what, "collision_virial"))
         return append(s, w, name, 2, dims, s->contacts.virial_field, "l^3 U0", fault);
     gas_take_grains(&s->gas, &s->parameters, &s->grains);
@@ -149,7 +162,8 @@ static enum status observe_fields(struct graingas *s, const char *name, struct h
 
 static double potential_energy(const struct graingas *s) {
     double sum = 0;
-    for (size_t i = 0; i < s->grains.count; i++) sum += s->grains.area[i] * s->grains.y[i];
+    for (size_t i = 0; i < s->grains.count; i++)
+        sum += s->grains.area[i] * s->grains.y[i];
     return sum * s->parameters.gravity / s->parameters.froude;
 }
 
@@ -196,14 +210,17 @@ static enum status observe_observables(struct graingas *s, const char *name, str
         return append(s, w, name, 1, (size_t[]){WALL_COUNT}, t->wall_impulse, "l^2 U0", fault);
     if (!strcmp(what, "wall_virial"))
         return append(s, w, name, 1, (size_t[]){WALL_COUNT}, t->wall_virial, "l^3 U0", fault);
-    if (!strcmp(what, "unabsorbed_force")) return append_unabsorbed(s, w, name, fault);
+    if (!strcmp(what, "unabsorbed_force"))
+        return append_unabsorbed(s, w, name, fault);
     return observe_densest(s, name, w, fault);
 }
 
 enum status graingas_observe(void *state, const char *dataset, struct h5_writer *w,
                              struct fault *fault) {
     struct graingas *s = state;
-    if (!strncmp(dataset, "particles/", 10)) return observe_particles(s, dataset, w, fault);
-    if (!strncmp(dataset, "fields/", 7)) return observe_fields(s, dataset, w, fault);
+    if (!strncmp(dataset, "particles/", 10))
+        return observe_particles(s, dataset, w, fault);
+    if (!strncmp(dataset, "fields/", 7))
+        return observe_fields(s, dataset, w, fault);
     return observe_observables(s, dataset, w, fault);
 }

@@ -10,13 +10,13 @@ static const char *const face_choices[] = {"arithmetic", "harmonic", "of-mean", 
 static const char *const start_choices[] = {"random", "equilibrated", "from-file", "list", NULL};
 
 #define REAL(name, unit, standard, min, max, source, doc)                                          \
-    {name, PARAMETER_REAL, unit, standard, min, max, NULL, source, doc}
+    { name, PARAMETER_REAL, unit, standard, min, max, NULL, source, doc }
 #define INTEGER(name, unit, standard, min, max, source, doc)                                       \
-    {name, PARAMETER_INTEGER, unit, standard, min, max, NULL, source, doc}
+    { name, PARAMETER_INTEGER, unit, standard, min, max, NULL, source, doc }
 #define CHOICE(name, standard, choices, source, doc)                                               \
-    {name, PARAMETER_CHOICE, "1", standard, 0, 0, choices, source, doc}
+    { name, PARAMETER_CHOICE, "1", standard, 0, 0, choices, source, doc }
 #define LIST(name, unit, min, max, source, doc)                                                    \
-    {name, PARAMETER_REAL_LIST, unit, "[]", min, max, NULL, source, doc}
+    { name, PARAMETER_REAL_LIST, unit, "[]", min, max, NULL, source, doc }
 
 const struct parameter graingas_parameter_table[] = {
     INTEGER("grains", "1", "18104", 0, 4e6, "MFM, Figs. 3-5", "number of grains"),
@@ -156,9 +156,10 @@ static void check_packing(const struct parameter_set *p, const struct graingas_p
     double fraction = (double)v->grains * area / (v->width_l * (double)v->height_l);
     bool placed = v->start == START_RANDOM || v->start == START_EQUILIBRATED;
     if (placed && fraction > 0.80)
-        parameters_fault(p, "grains", fault,
-                         "%zu grains fill %.3f of the area of %d x %d l; at most 0.80 can be placed",
-                         v->grains, fraction, v->width_l, v->height_l);
+        parameters_fault(
+            p, "grains", fault,
+            "%zu grains fill %.3f of the area of %d x %d l; at most 0.80 can be placed", v->grains,
+            fraction, v->width_l, v->height_l);
     if (v->hold_tau > 0 && v->start_speed > 0)
         parameters_fault(p, "start_speed", fault, "grains held until %g tau cannot start moving",
                          v->hold_tau);
@@ -167,8 +168,8 @@ static void check_packing(const struct parameter_set *p, const struct graingas_p
                          "needs start: random and an even number of grains, here %zu", v->grains);
 }
 
-enum status graingas_parameters_read(const struct parameter_set *p,
-                                     struct graingas_parameters *out, struct fault *fault) {
+enum status graingas_parameters_read(const struct parameter_set *p, struct graingas_parameters *out,
+                                     struct fault *fault) {
     read_values(p, out);
     read_grain_lists(p, out);
     check_lists(p, out, fault);
@@ -179,8 +180,8 @@ enum status graingas_parameters_read(const struct parameter_set *p,
                          "%g is beyond the drag's stability bound %.4g at solid fraction 0.62",
                          out->dt_tau, bound);
     if (out->flux_off_tau < out->flux_on_tau)
-        parameters_fault(p, "flux_off_tau", fault, "%g is before flux_on_tau %g",
-                         out->flux_off_tau, out->flux_on_tau);
+        parameters_fault(p, "flux_off_tau", fault, "%g is before flux_on_tau %g", out->flux_off_tau,
+                         out->flux_on_tau);
     if (out->fixed_bed.count > (size_t)out->height_l)
         parameters_fault(p, "fixed_bed", fault, "%zu bands in a box of %d rows",
                          out->fixed_bed.count, out->height_l);

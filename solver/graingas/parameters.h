@@ -53,8 +53,8 @@ enum { GRAINGAS_PARAMETER_COUNT = 36 };
 extern const struct parameter graingas_parameter_table[GRAINGAS_PARAMETER_COUNT];
 
 /* Fill *out; lists stay owned by p.  Every fault of the values is added to fault. */
-enum status graingas_parameters_read(const struct parameter_set *p,
-                                     struct graingas_parameters *out, struct fault *fault);
+enum status graingas_parameters_read(const struct parameter_set *p, struct graingas_parameters *out,
+                                     struct fault *fault);
 
 /* The drag's largest stable step at solid fraction .62, the densest site seen in
  * settled beds: dt < 2/rate, rate = rho/(Fr (1-rho)^m).  (tau) */

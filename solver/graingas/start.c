@@ -34,7 +34,8 @@ static size_t push_pairs_apart(struct grains *g, const struct neighbours *n) {
             size_t j = (size_t)n->other[k];
             double dx = g->x[i] - g->x[j], dy = g->y[i] - g->y[j];
             double reach = g->radius[i] + g->radius[j], square = dx * dx + dy * dy;
-            if (square >= reach * reach) continue;
+            if (square >= reach * reach)
+                continue;
             double d = sqrt(square), half = 0.5 * (reach * (1 + gap) - d);
             double nx = d > 0 ? dx / d : 1, ny = d > 0 ? dy / d : 0;
             g->x[i] = inside(g->x[i] + half * nx, g->radius[i], n->width);
@@ -54,7 +55,8 @@ static enum status push_apart(struct grains *g, const struct graingas_parameters
     size_t overlapping = 1;
     int sweeps = 0;
     while (overlapping > 0 && sweeps++ < MAX_PUSH_SWEEPS) {
-        if (neighbours_update(&n, g, fault) != STATUS_OK) break;
+        if (neighbours_update(&n, g, fault) != STATUS_OK)
+            break;
         overlapping = push_pairs_apart(g, &n);
     }
     neighbours_free(&n);
@@ -68,7 +70,8 @@ static enum status push_apart(struct grains *g, const struct graingas_parameters
 static enum status start_random(struct grains *g, const struct graingas_parameters *p,
                                 uint64_t seed, struct fault *fault) {
     gsl_rng *rng;
-    if (random_stream(seed, "graingas places", &rng, fault) != STATUS_OK) return fault->status;
+    if (random_stream(seed, "graingas places", &rng, fault) != STATUS_OK)
+        return fault->status;
     draw_places(g, p, p->width_l, rng);
     gsl_rng_free(rng);
     return push_apart(g, p, p->width_l, fault);
@@ -81,11 +84,14 @@ static enum status start_mirrored(struct grains *g, const struct graingas_parame
     gsl_rng *rng;
     struct grains half;
     size_t count = g->count / 2;
-    if (grains_create(&half, count, fault) != STATUS_OK) return fault->status;
-    if (random_stream(seed, "graingas places", &rng, fault) != STATUS_OK) goto done;
+    if (grains_create(&half, count, fault) != STATUS_OK)
+        return fault->status;
+    if (random_stream(seed, "graingas places", &rng, fault) != STATUS_OK)
+        goto done;
     draw_places(&half, p, 0.5 * p->width_l, rng);
     gsl_rng_free(rng);
-    if (push_apart(&half, p, 0.5 * p->width_l, fault) != STATUS_OK) goto done;
+    if (push_apart(&half, p, 0.5 * p->width_l, fault) != STATUS_OK)
+        goto done;
     for (size_t i = 0; i < count; i++) {
         /* An x that p->width_l - x gives back exactly, so that images are exact. */
         double image = p->width_l - half.x[i];
@@ -102,7 +108,8 @@ done:
 static enum status draw_velocities(struct grains *g, double speed, uint64_t seed,
                                    const char *purpose, struct fault *fault) {
     gsl_rng *rng;
-    if (random_stream(seed, purpose, &rng, fault) != STATUS_OK) return fault->status;
+    if (random_stream(seed, purpose, &rng, fault) != STATUS_OK)
+        return fault->status;
     for (size_t i = 0; i < g->count; i++) {
         g->vx[i] = gsl_ran_gaussian_ziggurat(rng, speed);
         g->vy[i] = gsl_ran_gaussian_ziggurat(rng, speed);
@@ -112,8 +119,8 @@ static enum status draw_velocities(struct grains *g, double speed, uint64_t seed
 }
 
 /* Elastic discs in a closed box for equilibrate_tau; velocities zero afterwards. */
-static enum status equilibrate(struct grains *g, const struct graingas_parameters *p,
-                               uint64_t seed, double *collisions_per_grain, struct fault *fault) {
+static enum status equilibrate(struct grains *g, const struct graingas_parameters *p, uint64_t seed,
+                               double *collisions_per_grain, struct fault *fault) {
     struct contacts c;
     if (draw_velocities(g, p->equilibrate_speed, seed, "graingas equilibration", fault) !=
         STATUS_OK)
@@ -127,7 +134,8 @@ static enum status equilibrate(struct grains *g, const struct graingas_parameter
         push_free(g, p->dt_tau);
         contacts_resolve(&c, g, &rule, fault);
     }
-    if (g->count > 0) *collisions_per_grain = 2.0 * (double)c.tally.collisions / (double)g->count;
+    if (g->count > 0)
+        *collisions_per_grain = 2.0 * (double)c.tally.collisions / (double)g->count;
     contacts_free(&c);
     for (size_t i = 0; i < g->count; i++) {
         g->vx[i] = g->vy[i] = 0;
@@ -152,11 +160,13 @@ static enum status read_fixed(struct h5_reader *r, const char *name, size_t coun
                               struct fault *fault) {
     double *value = NULL;
     size_t found = 0;
-    if (h5_read(r, name, count, &value, &found, fault) != STATUS_OK) return fault->status;
+    if (h5_read(r, name, count, &value, &found, fault) != STATUS_OK)
+        return fault->status;
     if (found != count)
         fault_set(fault, STATUS_BAD_INPUT, "%s: %s holds %zu values where the run has %zu grains",
                   h5_path(r), name, found, count);
-    for (size_t i = 0; i < count && fault->status == STATUS_OK; i++) out[i] = value[i];
+    for (size_t i = 0; i < count && fault->status == STATUS_OK; i++)
+        out[i] = value[i];
     free(value);
     return fault->status;
 }
@@ -165,12 +175,14 @@ static enum status read_last_frame(struct h5_reader *r, const char *name, size_t
                                    double *y, struct fault *fault) {
     int rank;
     size_t dims[H5_MAX_RANK];
-    if (h5_dims(r, name, &rank, dims, fault) != STATUS_OK) return fault->status;
+    if (h5_dims(r, name, &rank, dims, fault) != STATUS_OK)
+        return fault->status;
     if (rank != 3 || dims[0] < 1 || dims[1] != count || dims[2] != 2)
         return fault_set(fault, STATUS_BAD_INPUT, "%s: %s is not [samples][%zu grains][2]",
                          h5_path(r), name, count);
     double *value = malloc((2 * count + 1) * sizeof *value);
-    if (!value) return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu grains", count);
+    if (!value)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu grains", count);
     if (h5_read_slab(r, name, dims[0] - 1, 2 * count, value, fault) == STATUS_OK)
         for (size_t i = 0; i < count; i++) {
             x[i] = value[2 * i];
@@ -213,7 +225,8 @@ static enum status check_inside(const struct grains *g, const struct graingas_pa
 /* Horizontal layers of alternating species between the floor and the bed's top. */
 static void colour_layers(struct grains *g, int layers) {
     double top = 0;
-    for (size_t i = 0; i < g->count; i++) top = fmax(top, g->y[i]);
+    for (size_t i = 0; i < g->count; i++)
+        top = fmax(top, g->y[i]);
     for (size_t i = 0; i < g->count && layers > 0; i++)
         g->species[i] = (int32_t)fmin(g->y[i] / top * layers, layers - 1) % 2;
 }
@@ -233,7 +246,8 @@ enum status start_make(struct grains *g, const struct graingas_parameters *p,
         start_mirrored(g, p, seed, fault);
     else
         start_random(g, p, seed, fault);
-    if (fault->status != STATUS_OK || check_inside(g, p, fault) != STATUS_OK) return fault->status;
+    if (fault->status != STATUS_OK || check_inside(g, p, fault) != STATUS_OK)
+        return fault->status;
     grains_weigh(g);
     if (p->start == START_EQUILIBRATED)
         equilibrate(g, p, seed, collisions_per_grain, fault);
