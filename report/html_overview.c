@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { MAX_SYMBOLS = 60 };
+enum { MAX_SYMBOLS = 60, RANKS = 4 };
 
 static void put_banner(struct page *p) {
     const struct report *r = p->report;
@@ -154,6 +154,14 @@ static void put_matrix_row(struct page *p, const struct report_case *c) {
     fprintf(p->out, "</td></tr>\n");
 }
 
+/* What needs a look stands first; within a rank the order of the cases stays. */
+static int rank_of(const struct report_case *c) {
+    if (c->row_count == 0)
+        return RANKS - 1;
+    enum verdict verdict = html_case_verdict(c);
+    return verdict == VERDICT_FAIL ? 0 : verdict == VERDICT_INCONCLUSIVE ? 1 : 2;
+}
+
 static void put_matrix(struct page *p) {
     fprintf(p->out, "<h2>Cases</h2>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
                     "aria-label=\"Verdict of each case\">\n<table class=\"matrix\">\n<thead><tr>"
@@ -163,8 +171,12 @@ static void put_matrix(struct page *p) {
                     "<th scope=\"col\" class=\"num\">Inconclusive</th>"
                     "<th scope=\"col\" aria-hidden=\"true\">Check by check</th>"
                     "<th scope=\"col\">Worst margin used</th></tr></thead>\n<tbody>\n");
-    for (size_t i = 0; i < p->report->case_count; i++)
-        put_matrix_row(p, &p->report->cases[i]);
+    for (int rank = 0; rank < RANKS; rank++) {
+        for (size_t i = 0; i < p->report->case_count; i++) {
+            if (rank_of(&p->report->cases[i]) == rank)
+                put_matrix_row(p, &p->report->cases[i]);
+        }
+    }
     fprintf(p->out, "</tbody></table></div>\n");
 }
 

@@ -22,7 +22,7 @@ static bool same_check(const struct report_row *a, const struct report_row *b) {
 
 void html_margin(struct page *p, const struct report_row *row) {
     double used = report_margin_used(row);
-    double part = isnan(used) ? 0 : fmin(used, 1);
+    double part = isnan(used) ? row->verdict == VERDICT_FAIL : fmin(used, 1);
     fprintf(p->out, "<span class=\"margin %s\" style=\"--part:%.0f%%\">%s</span>",
             verdict_name(row->verdict), 100 * part, words_margin(used).text);
 }

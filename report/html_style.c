@@ -127,10 +127,11 @@ static const char style[] =
     "--line:#999;--pass:#146c2e;--fail:#b3201a;--inconclusive:#7d5200}"
     "body{max-width:none;padding:0;font-size:10pt}.skip,.back,summary{display:none}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}"
-    "details::details-content{content-visibility:visible;height:auto}"
     "pre{white-space:pre-wrap;overflow-wrap:anywhere}.scroll{overflow:visible}"
     ".plot svg{min-width:0}figure,.trouble,tr,h2,h3,h4{break-inside:avoid}"
-    "h2,h3,h4{break-after:avoid}.rows .reason{min-width:0}}\n";
+    "h2,h3,h4{break-after:avoid}table{font-size:8pt}th,td{padding:.25rem .4rem}.rows tbody "
+    "th{min-width:0;width:auto}"
+    ".rows .reason{min-width:9rem;font-size:8pt}details{display:none}.margin{min-width:4rem}}\n";
 
 const char *html_style(void) {
     return style;
