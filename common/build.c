@@ -23,11 +23,14 @@ const char *build_dirty(void) {
     return BUILD_DIRTY;
 }
 
+#define TEXT_OF(x) #x
+#define TEXT(x)    TEXT_OF(x)
+
 const char *build_compiler(void) {
 #ifdef __clang__
-    return "clang " __clang_version__;
+    return "clang " TEXT(__clang_major__) "." TEXT(__clang_minor__) "." TEXT(__clang_patchlevel__);
 #else
-    return "gcc " __VERSION__;
+    return "gcc " TEXT(__GNUC__) "." TEXT(__GNUC_MINOR__) "." TEXT(__GNUC_PATCHLEVEL__);
 #endif
 }
 
