@@ -88,6 +88,20 @@ static enum status check_output(const struct options *o, struct fault *fault) {
     return fault->status;
 }
 
+/* Of a case's swept parameters: those that no --set has given. */
+static void say_what_was_taken(const struct job *job) {
+    const struct options *o = &job->options;
+    for (const char *line = job->run.notice; *line != '\0';) {
+        size_t length = strcspn(line, "\n"), name = strcspn(line, " ");
+        bool set = false;
+        for (size_t i = 0; i < o->settings; i++)
+            set = set || (strncmp(o->setting[i], line, name) == 0 && o->setting[i][name] == '=');
+        if (!set)
+            fprintf(stderr, "bedsim: a case, not a run file: %.*s\n", (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
 static enum status prepare(struct job *job, struct fault *fault) {
     struct options *o = &job->options;
     if (runfile_load(o->run_path, &job->run, fault) || find_model(job, fault) ||
@@ -97,7 +111,7 @@ static enum status prepare(struct job *job, struct fault *fault) {
         check_output(o, fault))
         return fault->status;
     if (job->run.notice && !o->quiet)
-        fprintf(stderr, "bedsim: a case, not a run file; taken: %s\n", job->run.notice);
+        say_what_was_taken(job);
     if (job->run.start_file && h5_open(job->run.start_file, &job->start, fault) != STATUS_OK)
         return fault->status;
     if (job->model->create(&job->state, &job->parameters, job->start, o->seed, fault))
