@@ -8,7 +8,7 @@
 
 enum {
     WIDTH = 760, /* all of these in px of the drawing */
-    LEFT = 96,
+    LEFT = 108,
     RIGHT = 24,
     TOP = 14,
     KEY_ROW = 24,
