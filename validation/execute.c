@@ -207,13 +207,6 @@ static enum status start_run(struct executor *x, size_t index, struct fault *fau
     return status;
 }
 
-static size_t index_of(const struct plan *plan, const struct plan_run *run) {
-    size_t i = 0;
-    while (plan->run[i] != run)
-        i++;
-    return i;
-}
-
 static void settle(struct executor *x, size_t index) {
     if (x->o->finished != NULL && !x->o->finished(x->o->context, index))
         x->stopped = true;
@@ -224,7 +217,7 @@ static enum status consider(struct executor *x, size_t index, struct fault *faul
     const struct plan_run *run = x->plan->run[index];
     struct outcome *out = &x->outcome[index];
     if (run->start != NULL) {
-        enum run_state s = x->outcome[index_of(x->plan, run->start)].state;
+        enum run_state s = x->outcome[run->start->index].state;
         if (s == RUN_WAITING || s == RUN_RUNNING)
             return STATUS_OK;
     }
@@ -232,7 +225,7 @@ static enum status consider(struct executor *x, size_t index, struct fault *faul
     if (status != STATUS_OK)
         return status;
     bool blocked = run->start != NULL &&
-                   x->outcome[index_of(x->plan, run->start)].state == RUN_FAILED;
+                   x->outcome[run->start->index].state == RUN_FAILED;
     if (out->state == RUN_REUSED || blocked) {
         struct arena a = {0};
         status = write_run_file(run, x->o, &a, fault);

@@ -19,13 +19,13 @@
 enum { FIGURES_MAX = 16 };
 
 struct figure_input {
-    const struct measured_case *data;   /* data->point[i].run[k].observable[j].value, .curve */
-    const struct case_file *file;       /* = data->plan->file: observable[j].name, .recipe */
-    const struct case_figure *wanted;   /* title, caption, observables; NULL for the default */
+    const struct measured_case *data; /* data->point[i].run[k].observable[j].value, .curve */
+    const struct case_file *file;     /* = data->plan->file: observable[j].name, .recipe */
+    const struct case_figure *wanted; /* title, caption, observables; NULL for the default */
     size_t observable_count;
-    const size_t *observable;           /* what `of:` names, as indices of file->observable */
+    const size_t *observable; /* what `of:` names, as indices of file->observable */
     size_t row_count;
-    const struct report_row *row;       /* the case's judged rows */
+    const struct report_row *row;                  /* the case's judged rows */
     const struct measured_point *const *row_point; /* row_point[i]: NULL for across and run rows */
     const struct case_check *const *row_check;     /* row_check[i]: NULL for run rows */
 };
@@ -40,7 +40,7 @@ struct figure_output {
 
 struct figure_recipe {
     const char *name, *title;
-    size_t observables;  /* how many names `of:` must have; 0: none needed */
+    size_t observables; /* how many names `of:` must have; 0: none needed */
     /* Adds figures, pictures and tables to *out.  STATUS_BAD_INPUT when the data
      * do not suit; the report then says so in place of the figure. */
     enum status (*build)(const struct figure_input *in, struct figure_output *out,

@@ -80,6 +80,16 @@ static enum status check_owner(struct folder *f, bool make, struct fault *fault)
                      "%s: is no folder of bedcheck's results (no bedcheck.yaml in it)", f->path);
 }
 
+enum status folder_check(const char *path, struct fault *fault) {
+    struct folder f = {.lock = -1};
+    f.path = arena_copy(&f.arena, path);
+    enum status status = f.path == NULL
+                             ? fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path)
+                             : check_owner(&f, true, fault);
+    arena_free(&f.arena);
+    return status;
+}
+
 enum status folder_open(const char *path, bool make, struct folder **out, struct fault *fault) {
     *out = NULL;
     struct folder *f = calloc(1, sizeof *f);
@@ -163,6 +173,20 @@ static enum status remove_file(const char *path, struct fault *fault) {
     return STATUS_OK;
 }
 
+enum status folder_drop_reports(const struct folder *f, struct fault *fault) {
+    static const char *const name[] = {"results.json", "junit.xml", "summary.md",
+                                       "report/index.html"};
+    struct arena a = {0};
+    enum status status = STATUS_OK;
+    for (size_t i = 0; status == STATUS_OK && i < sizeof name / sizeof *name; i++) {
+        const char *path = inside(&a, f->path, name[i]);
+        status = path == NULL ? fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", f->path)
+                              : remove_file(path, fault);
+    }
+    arena_free(&a);
+    return status;
+}
+
 enum status folder_drop_result(const struct folder *f, const char *run_name, struct fault *fault) {
     struct arena a = {0};
     enum status status = STATUS_OK;
@@ -223,90 +247,5 @@ enum status folder_solver_keys(const struct folder *f, struct arena *a, const ch
             status = add_key(a, record.solver, out, count, fault);
     }
     closedir(d);
-    return status;
-}
-
-/* -- clean ------------------------------------------------------------------ */
-
-/* "CASE.1a2b3c4d" and, with seed, "-s1101", before `rest`. */
-static bool is_run_name(const char *file, const char *rest) {
-    size_t length = rest == NULL ? strlen(file) : (size_t)(rest - file);
-    const char *dot = memrchr(file, '.', length);
-    if (dot == NULL || dot == file || strspn(dot + 1, "0123456789abcdef") != 8)
-        return false;
-    const char *seed = dot + 9;
-    if (seed == file + length)
-        return true;
-    return seed[0] == '-' && seed[1] == 's' &&
-           seed + 2 + strspn(seed + 2, "0123456789") == file + length;
-}
-
-static bool is_ours(const char *part, const char *name) {
-    static const char *const end[] = {".run.json", ".h5", ".key", ".yaml", ".log"};
-    char stem[512];
-    snprintf(stem, sizeof stem, "%s", name);
-    char *unfinished = strstr(stem, ".tmp.");
-    if (unfinished != NULL)
-        *unfinished = '\0';
-    if (strcmp(part, "report") == 0)
-        return strcmp(stem, "index.html") == 0 || ends_with(stem, ".png") || ends_with(stem, ".svg");
-    if (*part == '\0')
-        return strcmp(stem, "results.json") == 0 || strcmp(stem, "junit.xml") == 0 ||
-               strcmp(stem, "summary.md") == 0 || strcmp(stem, "bedcheck.lock") == 0;
-    for (size_t i = 0; i < sizeof end / sizeof *end; i++) {
-        if (ends_with(stem, end[i]) && is_run_name(stem, stem + strlen(stem) - strlen(end[i])))
-            return true;
-    }
-    return false;
-}
-
-struct sweep {
-    size_t *removed, *left;
-};
-
-static enum status clean_part(const struct folder *f, const char *part, struct sweep *s,
-                              struct fault *fault) {
-    struct arena a = {0};
-    enum status status = STATUS_OK;
-    const char *path = *part == '\0' ? f->path : inside(&a, f->path, part);
-    struct stat about;
-    if (path == NULL || lstat(path, &about) != 0 || !S_ISDIR(about.st_mode))
-        goto end; /* not there, or a link that leads elsewhere */
-    DIR *d = opendir(path);
-    for (struct dirent *e; d != NULL && status == STATUS_OK && (e = readdir(d)) != NULL;) {
-        const char *file = inside(&a, path, e->d_name);
-        bool known = strcmp(e->d_name, "bedcheck.yaml") == 0 && *part == '\0';
-        if (file == NULL || lstat(file, &about) != 0 || S_ISDIR(about.st_mode) || known)
-            continue;
-        if (!S_ISREG(about.st_mode) || !is_ours(part, e->d_name)) {
-            ++*s->left;
-            continue;
-        }
-        status = remove_file(file, fault);
-        ++*s->removed;
-    }
-    if (d != NULL)
-        closedir(d);
-    if (status == STATUS_OK && *part != '\0')
-        rmdir(path); /* stays where something foreign is in it */
-end:
-    arena_free(&a);
-    return status;
-}
-
-enum status folder_clean(struct folder *f, size_t *removed, size_t *left, struct fault *fault) {
-    static const char *const part[] = {"h5", "runs", "logs", "report", ""};
-    struct sweep s = {removed, left};
-    enum status status = STATUS_OK;
-    *removed = *left = 0;
-    for (size_t i = 0; status == STATUS_OK && i < sizeof part / sizeof *part; i++)
-        status = clean_part(f, part[i], &s, fault);
-    const char *record = inside(&f->arena, f->path, "bedcheck.yaml");
-    if (status == STATUS_OK && record != NULL)
-        status = remove_file(record, fault); /* last: until then the folder is ours */
-    if (status == STATUS_OK) {
-        ++*removed;
-        rmdir(f->path);
-    }
     return status;
 }

@@ -21,6 +21,12 @@ struct folder; /* opaque */
  * yet.  STATUS_BAD_INPUT for a folder of others' or one in use. */
 enum status folder_open(const char *path, bool make, struct folder **out, struct fault *fault);
 void folder_close(struct folder *f); /* NULL is allowed */
+
+/* Would folder_open with `make` find a folder that it may use?  Changes nothing. */
+enum status folder_check(const char *path, struct fault *fault);
+
+/* Remove the reports of an earlier judging, which new runs make untrue. */
+enum status folder_drop_reports(const struct folder *f, struct fault *fault);
 const char *folder_path(const struct folder *f);
 
 /* DIR/bedcheck.yaml: enough to judge the folder again. */
@@ -58,5 +64,8 @@ enum status folder_solver_keys(const struct folder *f, struct arena *a, const ch
 /* Remove what bedcheck writes, by name, and the folders that are empty then.
  * *left says how many foreign files stay. */
 enum status folder_clean(struct folder *f, size_t *removed, size_t *left, struct fault *fault);
+
+/* Remove the results that another solver build made than the record's. */
+enum status folder_clean_stale(const struct folder *f, size_t *removed, struct fault *fault);
 
 #endif

@@ -55,8 +55,8 @@ void measured_case_free(struct measured_case *m); /* NULL is allowed */
 
 /* Mean over the point's usable runs of one output and its standard error (NaN
  * with fewer than two); returns the number of finite values.  For figures. */
-size_t measured_mean(const struct measured_point *p, size_t observable, size_t output,
-                     double *mean, double *error);
+size_t measured_mean(const struct measured_point *p, size_t observable, size_t output, double *mean,
+                     double *error);
 
 /* A point's parameter as a number; NaN when it is none or not set in the case. */
 double measured_parameter(const struct measured_point *p, const char *name);

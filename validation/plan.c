@@ -170,6 +170,7 @@ static enum status add_run(struct planner *pl, struct plan_run *run) {
     if (wider == NULL)
         return no_memory(pl);
     p->run = wider;
+    run->index = p->run_count;
     p->run[p->run_count++] = run;
     return STATUS_OK;
 }

@@ -19,6 +19,7 @@ struct plan_run {
     const char *text;    /* of the run file */
     const char *meaning; /* the same without comments: what is digested */
     long long seed;
+    size_t index;           /* in plan->run */
     struct plan_run *start; /* complete before this one begins, or NULL */
     double expect_s, limit_s;
     double bytes; /* expected size of the result, an estimate */

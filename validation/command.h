@@ -1,0 +1,46 @@
+/* command.h -- what bedcheck does, given its parsed options.
+ *
+ * Each command writes to the streams it is given and returns an exit code:
+ * 0 all checks pass, 1 a check failed, 3 a check is inconclusive, 2 trouble of
+ * bedcheck's own (2 before 1 before 3), 130 interrupted.
+ */
+#ifndef VALIDATION_COMMAND_H
+#define VALIDATION_COMMAND_H
+
+#include "validation/case.h"
+
+#include <stdio.h>
+
+struct console {
+    FILE *out, *errors;
+    bool live;                      /* a terminal: show progress */
+};
+
+struct command_options {
+    const char *cases_folder;       /* NULL: what the folder's record says (check, report) */
+    const char *out;                /* folder of results */
+    const char *solver;             /* a program's name or path */
+    const char *path_list;          /* value of PATH, or NULL */
+    char *const *environment;       /* for the solver */
+    const char *const *pattern, *const *tag, *const *skip, *const *setting;
+    size_t pattern_count, tag_count, skip_count, setting_count;
+    enum tier tier;
+    bool tier_given, dry_run, failed, stop_at_failure, stale;
+    size_t jobs;
+    double limit_s;                 /* --timeout; 0: as the cases say */
+    long long seed_offset;
+};
+
+/* command_list.c */
+int command_list(const struct command_options *o, const struct console *c);
+int command_show(const struct command_options *o, const struct console *c);
+int command_recipes(const struct console *c);
+
+/* command_run.c */
+int command_run(const struct command_options *o, const struct console *c);
+
+/* command_check.c: judge again what is there; with `page`, write report/index.html too. */
+int command_check(const struct command_options *o, bool page, const struct console *c);
+int command_clean(const struct command_options *o, const struct console *c);
+
+#endif

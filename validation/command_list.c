@@ -1,0 +1,204 @@
+/* command_list.c -- bedcheck list, show and recipes: what there is. */
+#include "validation/command.h"
+
+#include "validation/figures.h"
+#include "validation/selection.h"
+
+#include <math.h>
+#include <string.h>
+
+static size_t count_runs(const struct case_tier *t) {
+    size_t runs = 0;
+    struct case_parameter p[512];
+    size_t size = t->parameter_count + t->axis_count;
+    for (size_t i = 0; size <= 512 && i < t->point_count; i++) {
+        case_point(t, i, p);
+        runs += case_seed_count(&t->seeds, p, size);
+    }
+    return runs;
+}
+
+static void list_case(FILE *out, const struct case_file *c) {
+    fprintf(out, "%-42s %s", c->name, c->title);
+    for (enum tier t = 0; t < TIER_COUNT; t++) {
+        if (c->tier[t].present)
+            fprintf(out, "%s%s", t == TIER_SMOKE || !c->tier[TIER_SMOKE].present ? "  [" : ", ",
+                    case_tier_name(t));
+    }
+    fputs("]\n", out);
+}
+
+int command_list(const struct command_options *o, const struct console *c) {
+    struct fault fault = FAULT_NONE;
+    struct selection *s = NULL;
+    struct selection_request request = {.folder = o->cases_folder,
+                                        .pattern_count = o->pattern_count,
+                                        .tag_count = o->tag_count,
+                                        .pattern = o->pattern,
+                                        .tag = o->tag,
+                                        .any_tier = !o->tier_given,
+                                        .tier = o->tier};
+    if (selection_make(&request, &s, &fault) != STATUS_OK) {
+        fprintf(c->errors, "bedcheck: %s\n", fault.text);
+        return 2;
+    }
+    for (size_t i = 0; i < s->count; i++)
+        list_case(c->out, s->order[i].file);
+    selection_free(s);
+    return 0;
+}
+
+/* -- show ----------------------------------------------------------------------------- */
+
+static void show_node(FILE *out, const struct yaml_node *n) {
+    if (n->kind == YAML_SCALAR) {
+        fputs(n->text, out);
+        return;
+    }
+    fputc('[', out);
+    for (size_t i = 0; i < n->count; i++) {
+        fputs(i == 0 ? "" : ", ", out);
+        show_node(out, &n->child[i]);
+    }
+    fputc(']', out);
+}
+
+static void show_amount(FILE *out, const char *name, const struct case_amount *a) {
+    if (a->given)
+        fprintf(out, ", %s %g%s", name, a->value, a->percent ? " %" : "");
+}
+
+static void show_expect(FILE *out, const struct case_expect *e) {
+    if (e->kind == EXPECT_NUMBER) {
+        fprintf(out, "%g", e->value);
+        if (e->uncertainty > 0)
+            fprintf(out, " +- %g", e->uncertainty);
+    } else if (e->kind == EXPECT_PREDICTION) {
+        fprintf(out, "%s (%s)", e->prediction.prediction->name,
+                e->prediction.prediction->source);
+    } else {
+        fprintf(out, "by %s: ", e->by);
+        for (size_t i = 0; i < e->count; i++) {
+            fprintf(out, "%s%s: ", i == 0 ? "" : ", ", e->entry[i].node->key);
+            show_expect(out, &e->entry[i].expect);
+        }
+    }
+}
+
+static void show_check(FILE *out, const struct case_check *k) {
+    fprintf(out, "    %s: %s", k->name, k->observable);
+    if (k->per.prediction != NULL)
+        fprintf(out, " / %s", k->per.prediction->name);
+    if (strcmp(k->unit, "1") != 0)
+        fprintf(out, " (%s)", k->unit);
+    fprintf(out, " %s ", case_comparison_name(k->comparison));
+    show_expect(out, &k->expect);
+    show_amount(out, "margin", &k->margin);
+    show_amount(out, "scatter", &k->scatter);
+    fprintf(out, " [%s]\n", case_kind_name(k->kind));
+    fprintf(out, "        %s\n", k->because);
+}
+
+static void show_tier(FILE *out, const struct case_file *c, enum tier tier) {
+    const struct case_tier *t = &c->tier[tier];
+    fprintf(out, "\ntier %s: %zu points, %zu runs, about %g s each (limit %g s)\n",
+            case_tier_name(tier), t->point_count, count_runs(t), t->expect_s, t->limit_s);
+    for (size_t i = 0; i < t->parameter_count; i++) {
+        fprintf(out, "    %s: ", t->parameter[i].name);
+        show_node(out, t->parameter[i].value);
+        fputc('\n', out);
+    }
+    for (size_t i = 0; i < t->axis_count; i++) {
+        fprintf(out, "    %s: swept over ", t->axis[i].name);
+        show_node(out, t->axis[i].list);
+        fputc('\n', out);
+    }
+    if (t->start.case_name != NULL)
+        fprintf(out, "    starts from %s\n", t->start.case_name);
+    fputs("  checks\n", out);
+    for (size_t i = 0; i < t->check_count; i++)
+        show_check(out, &t->check[i]);
+}
+
+int command_show(const struct command_options *o, const struct console *c) {
+    struct fault fault = FAULT_NONE;
+    struct selection *s = NULL;
+    struct selection_request request = {.folder = o->cases_folder,
+                                        .pattern_count = o->pattern_count,
+                                        .pattern = o->pattern,
+                                        .any_tier = true};
+    if (selection_make(&request, &s, &fault) != STATUS_OK) {
+        fprintf(c->errors, "bedcheck: %s\n", fault.text);
+        return 2;
+    }
+    for (size_t i = 0; i < s->count; i++) {
+        const struct case_file *f = s->order[i].file;
+        fprintf(c->out, "%s%s: %s\n  file:     %s\n  source:   %s\n  model:    %s\n  question: %s\n",
+                i == 0 ? "" : "\n", f->name, f->title, f->path, f->source, f->model, f->question);
+        for (enum tier t = 0; t < TIER_COUNT; t++) {
+            if (f->tier[t].present && (!o->tier_given || o->tier == t))
+                show_tier(c->out, f, t);
+        }
+    }
+    selection_free(s);
+    return 0;
+}
+
+/* -- recipes -------------------------------------------------------------------------- */
+
+static void list_recipe(FILE *out, const struct recipe *r) {
+    fprintf(out, "%s: %s (%s)\n", r->name, r->title, r->source);
+    for (size_t i = 0; i < RECIPE_MAX_OUTPUTS && r->output[i].name != NULL; i++)
+        fprintf(out, "    gives   %s (%s): %s\n", r->output[i].name, r->output[i].unit,
+                r->output[i].doc);
+    for (size_t i = 0; i < RECIPE_MAX_SETTINGS && r->setting[i].name != NULL; i++) {
+        const struct recipe_setting *s = &r->setting[i];
+        fprintf(out, "    setting %s (%s), ", s->name, s->unit);
+        if (isnan(s->standard))
+            fputs("must be given", out);
+        else
+            fprintf(out, "default %g", s->standard);
+        if (s->min < s->max)
+            fprintf(out, ", %g to %g", s->min, s->max);
+        fprintf(out, ": %s\n", s->doc);
+    }
+    fputs("    reads  ", out);
+    for (size_t i = 0; r->datasets != NULL && r->datasets[i] != NULL; i++)
+        fprintf(out, " %s", r->datasets[i]);
+    fputc('\n', out);
+}
+
+static void list_texts(FILE *out, const char *head, const char *const *text, size_t room) {
+    fprintf(out, "    %s", head);
+    for (size_t i = 0; i < room && text[i] != NULL; i++)
+        fprintf(out, " %s", text[i]);
+    fputc('\n', out);
+}
+
+int command_recipes(const struct console *c) {
+    size_t count;
+    const struct recipe *const *recipe = recipe_all(&count);
+    fputs("Observables\n\n", c->out);
+    for (size_t i = 0; i < count; i++)
+        list_recipe(c->out, recipe[i]);
+    const struct prediction *const *prediction = prediction_all(&count);
+    fputs("\nPredictions\n\n", c->out);
+    for (size_t i = 0; i < count; i++) {
+        fprintf(c->out, "%s (%s): %s (%s)\n", prediction[i]->name, prediction[i]->unit,
+                prediction[i]->title, prediction[i]->source);
+        list_texts(c->out, "inputs ", prediction[i]->input, PREDICTION_MAX_INPUTS);
+    }
+    const struct across *const *across = across_all(&count);
+    fputs("\nFits over a sweep\n\n", c->out);
+    for (size_t i = 0; i < count; i++) {
+        fprintf(c->out, "%s: %s (%s), at least %zu points\n", across[i]->name, across[i]->title,
+                across[i]->source, across[i]->min_points);
+        list_texts(c->out, "gives  ", across[i]->output, ACROSS_MAX_OUTPUTS);
+    }
+    const struct figure_recipe *const *figure = figure_all(&count);
+    fputs("\nFigures\n\n", c->out);
+    for (size_t i = 0; i < count; i++)
+        fprintf(c->out, "%s: %s, draws %zu observables\n", figure[i]->name, figure[i]->title,
+                figure[i]->observables);
+    return 0;
+}

@@ -1,0 +1,234 @@
+#include "validation/desk.h"
+
+#include "common/file.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LOG_LINES = 12 };
+
+struct desk {
+    const struct plan *plan;
+    const struct outcome *outcome;
+    const struct execute_options *execute;
+    const struct console *console;
+    struct measured_case **measured; /* measured[0 .. plan->case_count-1], NULL: not yet */
+    struct rows **rows;
+};
+
+enum status desk_create(const struct plan *plan, const struct outcome *outcome,
+                        const struct execute_options *execute, const struct console *console,
+                        struct desk **out, struct fault *fault) {
+    struct desk *d = calloc(1, sizeof *d);
+    *out = d;
+    if (d == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "judging: out of memory");
+    *d = (struct desk){plan, outcome, execute, console, NULL, NULL};
+    d->measured = calloc(plan->case_count + 1, sizeof *d->measured);
+    d->rows = calloc(plan->case_count + 1, sizeof *d->rows);
+    if (d->measured != NULL && d->rows != NULL)
+        return STATUS_OK;
+    desk_free(d);
+    *out = NULL;
+    return fault_set(fault, STATUS_NO_MEMORY, "judging: out of memory");
+}
+
+void desk_free(struct desk *d) {
+    if (d == NULL)
+        return;
+    for (size_t i = 0; i < d->plan->case_count; i++) {
+        if (d->rows != NULL)
+            rows_free(d->rows[i]);
+        if (d->measured != NULL)
+            measured_case_free(d->measured[i]);
+    }
+    free(d->rows);
+    free(d->measured);
+    free(d);
+}
+
+/* -- judging ---------------------------------------------------------------------- */
+
+static const struct outcome *outcome_of(const struct desk *d, const struct plan_run *run) {
+    return &d->outcome[run->index];
+}
+
+static bool is_settled(const struct desk *d, const struct plan_case *c) {
+    for (size_t p = 0; p < c->point_count; p++) {
+        for (size_t r = 0; r < c->point[p].run_count; r++) {
+            enum run_state s = outcome_of(d, c->point[p].run[r])->state;
+            if (s == RUN_WAITING || s == RUN_RUNNING)
+                return false;
+        }
+    }
+    return c->skip_reason == NULL;
+}
+
+static enum status describe(void *context, const struct plan_run *run, struct arena *arena,
+                            struct measured_run *r, struct fault *fault) {
+    const struct desk *d = context;
+    const struct outcome *o = outcome_of(d, run);
+    const struct folder *f = d->execute->folder;
+    r->run_path = folder_run_file(f, arena, run);
+    r->result_path = folder_result(f, arena, run);
+    r->seconds = o->seconds;
+    r->usable = o->state != RUN_FAILED;
+    const char *log = folder_log(f, arena, run);
+    if (r->run_path == NULL || r->result_path == NULL || log == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", run->name);
+    if (r->usable)
+        return STATUS_OK;
+    r->failure = o->failure;
+    r->log_end = execute_log_end(log, LOG_LINES, arena);
+    return r->log_end == NULL ? fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", run->name)
+                              : STATUS_OK;
+}
+
+/* -- telling ---------------------------------------------------------------------- */
+
+static void tell_text(FILE *out, const char *head, const char *text) {
+    for (const char *line = text; *line != '\0';) {
+        size_t length = strcspn(line, "\n");
+        fprintf(out, "        %s%.*s\n", head, (int)length, line);
+        line += length + (line[length] == '\n');
+    }
+}
+
+static void tell_row(FILE *out, const struct report_row *r) {
+    fprintf(out, "  %-5s %s [%s]: ", r->verdict == VERDICT_FAIL ? "fail" : "open", r->check,
+            r->point);
+    if (isfinite(r->measured))
+        fprintf(out, "measured %.6g", r->measured);
+    if (isfinite(r->measured) && r->uncertainty > 0)
+        fprintf(out, " +- %.2g", r->uncertainty);
+    if (isfinite(r->measured) && isfinite(r->expected))
+        fprintf(out, ", expected %.6g, margin %.3g (%s); ", r->expected, r->tolerance,
+                r->comparison);
+    else if (isfinite(r->measured))
+        fputs("; ", out);
+    fprintf(out, "%s\n", r->reason);
+    fprintf(out, "        repeat: %s\n", r->repeat);
+    if (r->log_end != NULL && *r->log_end != '\0')
+        tell_text(out, "log: ", r->log_end);
+}
+
+static enum verdict worse(enum verdict a, enum verdict b) {
+    if (a == VERDICT_FAIL || b == VERDICT_FAIL)
+        return VERDICT_FAIL;
+    return a == VERDICT_PASS ? b : a;
+}
+
+static enum verdict tell_case(const struct desk *d, size_t index) {
+    static const char *const word[] = {"pass", "FAIL", "OPEN"};
+    const struct rows *rows = d->rows[index];
+    FILE *out = d->console->out;
+    size_t failed = 0, open = 0;
+    double seconds = 0;
+    enum verdict v = VERDICT_PASS;
+    const struct plan_case *c = &d->plan->cases[index];
+    for (size_t i = 0; i < rows->count; i++) {
+        failed += rows->row[i].verdict == VERDICT_FAIL;
+        open += rows->row[i].verdict == VERDICT_INCONCLUSIVE;
+        v = worse(v, rows->row[i].verdict);
+    }
+    for (size_t p = 0; p < c->point_count; p++) {
+        for (size_t r = 0; r < c->point[p].run_count; r++) {
+            double s = outcome_of(d, c->point[p].run[r])->seconds;
+            seconds += isfinite(s) ? s : 0;
+        }
+    }
+    if (d->console->live)
+        fputs("\r\033[K", d->console->errors);
+    fprintf(out, "%s  %-40s %zu rows", word[v], c->file->name, rows->count);
+    if (failed > 0)
+        fprintf(out, ", %zu fail", failed);
+    if (open > 0)
+        fprintf(out, ", %zu inconclusive", open);
+    fprintf(out, "  (%.1f s of solver)\n", seconds);
+    for (size_t i = 0; i < rows->count; i++) {
+        if (rows->row[i].verdict != VERDICT_PASS)
+            tell_row(out, &rows->row[i]);
+    }
+    fflush(out);
+    return v;
+}
+
+enum status desk_judge(struct desk *d, enum verdict *worst, struct fault *fault) {
+    const struct measure_source source = {describe, d};
+    for (size_t i = 0; i < d->plan->case_count; i++) {
+        if (d->rows[i] != NULL || !is_settled(d, &d->plan->cases[i]))
+            continue;
+        enum status status = measure_case(&d->plan->cases[i], &source, &d->measured[i], fault);
+        if (status == STATUS_OK)
+            status = rows_judge(d->measured[i], d->execute, &d->rows[i], fault);
+        if (status != STATUS_OK)
+            return status;
+        *worst = worse(*worst, tell_case(d, i));
+    }
+    return STATUS_OK;
+}
+
+/* -- filing ----------------------------------------------------------------------- */
+
+static enum status write_all(const struct desk *d, const struct report *r, bool page,
+                             struct arena *a, struct fault *fault) {
+    static const struct {
+        const char *name;
+        enum status (*write)(const struct report *r, const char *path, struct fault *fault);
+    } file[] = {{"results.json", report_write_json},
+                {"junit.xml", report_write_junit},
+                {"summary.md", report_write_markdown},
+                {"report", report_write_html}};
+    size_t count = sizeof file / sizeof *file - (page ? 0 : 1);
+    enum status status = STATUS_OK;
+    for (size_t i = 0; status == STATUS_OK && i < count; i++) {
+        const char *path = arena_text(a, "%s/%s", folder_path(d->execute->folder), file[i].name);
+        status = path == NULL ? fault_set(fault, STATUS_NO_MEMORY, "report: out of memory")
+                              : file[i].write(r, path, fault);
+    }
+    return status;
+}
+
+static void tell_last(const struct desk *d, const struct report *r, bool page) {
+    static const char *const word[] = {"PASS", "FAIL", "INCONCLUSIVE"};
+    struct report_count n = report_tally(r);
+    FILE *out = d->console->out;
+    if (r->modified)
+        fprintf(out, "MODIFIED (%s) ", r->modification);
+    fprintf(out, "%s: %zu checks: %zu pass, %zu fail, %zu inconclusive; %zu cases skipped; %s: "
+            "%s/%s\n", word[report_verdict(r)], n.pass + n.fail + n.inconclusive, n.pass, n.fail,
+            n.inconclusive, n.skipped, page ? "report" : "results",
+            folder_path(d->execute->folder), page ? "report/index.html" : "results.json");
+}
+
+static int exit_code_of(const struct report *r) {
+    struct report_count n = report_tally(r);
+    return n.fail > 0 ? 1 : n.inconclusive > 0 || n.pass == 0 ? 3 : 0;
+}
+
+enum status desk_file(struct desk *d, const struct folder_record *record, bool page,
+                      int *exit_code, struct fault *fault) {
+    struct assemble_case *cases = calloc(d->plan->case_count + 1, sizeof *cases);
+    struct assembled *a = NULL;
+    if (cases == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
+    for (size_t i = 0; i < d->plan->case_count; i++)
+        cases[i] = (struct assemble_case){
+            .plan = &d->plan->cases[i],
+            .measured = d->measured[i],
+            .rows = d->rows[i],
+            .not_run = d->rows[i] == NULL ? "not run: stopped at the first failure (-x)" : NULL};
+    struct assemble_input in = {record,  cases,     d->plan->case_count,
+                                d->plan, d->outcome, d->execute->folder};
+    enum status status = assemble_report(&in, &a, fault);
+    if (status == STATUS_OK)
+        status = write_all(d, &a->report, page, &a->arena, fault);
+    if (status == STATUS_OK) {
+        tell_last(d, &a->report, page);
+        *exit_code = exit_code_of(&a->report);
+    }
+    assemble_free(a);
+    free(cases);
+    return status;
+}

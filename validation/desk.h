@@ -1,0 +1,29 @@
+/* desk.h -- from finished runs to verdicts, files and the last line.
+ *
+ * Both `run` and `check` keep one desk: cases are measured and judged as soon as
+ * their runs are complete, told on the console, and filed at the end.
+ */
+#ifndef VALIDATION_DESK_H
+#define VALIDATION_DESK_H
+
+#include "validation/assemble.h"
+#include "validation/command.h"
+
+struct desk; /* opaque */
+
+/* All borrowed; outcome[0 .. plan->run_count-1] may change until a case is judged. */
+enum status desk_create(const struct plan *plan, const struct outcome *outcome,
+                        const struct execute_options *execute, const struct console *console,
+                        struct desk **out, struct fault *fault);
+void desk_free(struct desk *d); /* NULL is allowed */
+
+/* Judge every case whose runs are all settled and that is not judged yet.
+ * *worst is the worst verdict so far. */
+enum status desk_judge(struct desk *d, enum verdict *worst, struct fault *fault);
+
+/* Write results.json, junit.xml, summary.md and, with `page`, report/index.html;
+ * print the last line; *exit_code says 0, 1 or 3. */
+enum status desk_file(struct desk *d, const struct folder_record *record, bool page,
+                      int *exit_code, struct fault *fault);
+
+#endif
