@@ -57,7 +57,8 @@ const struct parameter graingas_parameter_table[] = {
     LIST("grain_velocity_y", "U0", -1e3, 1e3, "verification cases", "start list: velocities"),
     {"mirror", PARAMETER_BOOLEAN, "1", "false", 0, 1, NULL, "verification cases",
      "start random: the right half is the mirror image of the left"},
-    REAL("hold_tau", "tau", "0", 0, 1e6, "verification cases", "grains are held until then"),
+    REAL("hold_tau", "tau", "0", 0, 1e6, "verification cases",
+         "grains stay in place until then; the gas feels their velocities"),
     LIST("fixed_bed", "1", 0, 0.65, "verification cases",
          "solid fractions of equal horizontal bands of an immobile packing, bottom first"),
     REAL("flux_l_per_tau", "l/tau", "0", -1e3, 1e3, "MFM, Section IV",
@@ -160,9 +161,6 @@ static void check_packing(const struct parameter_set *p, const struct graingas_p
             p, "grains", fault,
             "%zu grains fill %.3f of the area of %d x %d l; at most 0.80 can be placed", v->grains,
             fraction, v->width_l, v->height_l);
-    if (v->hold_tau > 0 && v->start_speed > 0)
-        parameters_fault(p, "start_speed", fault, "grains held until %g tau cannot start moving",
-                         v->hold_tau);
     if (v->mirror && (v->start != START_RANDOM || v->grains % 2))
         parameters_fault(p, "mirror", fault,
                          "needs start: random and an even number of grains, here %zu", v->grains);

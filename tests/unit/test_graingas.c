@@ -149,8 +149,6 @@ START_TEST(what_cannot_be_run_is_refused_before_the_first_step) {
                {"grain_x: [1.5]\n", "used with start: list only"},
                {"grains: 3\nmirror: true\n", "an even number of grains"},
                {"flux_on_tau: 3\nflux_off_tau: 2\n", "is before flux_on_tau"},
-               {"height_l: 40\ngrains: 10\nfixed_bed: [0.3]\nhold_tau: 1\nstart_speed: 1\n",
-                "cannot start moving"},
                {"start: from-file\n", "needs a start_file"}};
     for (size_t n = 0; n < sizeof bad / sizeof *bad; n++) {
         struct fault fault = fixture_refused(bad[n].yaml);
