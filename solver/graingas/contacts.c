@@ -12,16 +12,20 @@ static enum status make_room(struct contacts *c, size_t needed, struct fault *fa
     if (needed <= c->capacity)
         return STATUS_OK;
     size_t capacity = 2 * needed + 64;
-    struct contact *contact = realloc(c->contact, capacity * sizeof *contact);
-    if (contact)
+    struct contact *contact = aligned_alloc(64, capacity * sizeof *contact);
+    if (contact) {
+        if (c->count > 0)
+            memcpy(contact, c->contact, c->count * sizeof *contact);
+        free(c->contact);
         c->contact = contact;
+    }
     uint64_t *todo = realloc(c->todo, words(capacity) * sizeof *todo);
     if (todo)
         c->todo = todo;
-    int32_t *adjacent = realloc(c->adjacent, 2 * capacity * sizeof *adjacent);
-    if (adjacent)
-        c->adjacent = adjacent;
-    if (!contact || !todo || !adjacent)
+    int32_t *other = realloc(c->other, capacity * sizeof *other);
+    if (other)
+        c->other = other;
+    if (!contact || !todo || !other)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu contacts", capacity);
     c->capacity = capacity;
     return STATUS_OK;
@@ -32,11 +36,14 @@ enum status contacts_create(struct contacts *c, size_t grains, double width, dou
     *c = (struct contacts){0};
     if (neighbours_create(&c->neighbours, grains, width, height, diameter_max, fault) != STATUS_OK)
         return fault->status;
-    c->adjacent_first = calloc(grains + 2, sizeof *c->adjacent_first);
+    c->own = calloc(grains + 2, sizeof *c->own);
+    c->other_first = calloc(grains + 2, sizeof *c->other_first);
+    c->body = aligned_alloc(32, (grains + 1) * sizeof *c->body);
     c->rest_overlap = CONTACTS_REST_OVERLAP * diameter_max;
     c->sites_x = (int)width + 1;
     c->virial_field = calloc((size_t)c->sites_x * ((size_t)height + 1), sizeof *c->virial_field);
-    if (c->adjacent_first && c->virial_field && make_room(c, 2 * grains, fault) == STATUS_OK)
+    if (c->own && c->other_first && c->body && c->virial_field &&
+        make_room(c, 2 * grains, fault) == STATUS_OK)
         return STATUS_OK;
     contacts_free(c);
     return fault_set(fault, STATUS_NO_MEMORY, "no memory for the contacts of %zu grains", grains);
@@ -46,8 +53,10 @@ void contacts_free(struct contacts *c) {
     neighbours_free(&c->neighbours);
     free(c->contact);
     free(c->todo);
-    free(c->adjacent_first);
-    free(c->adjacent);
+    free(c->body);
+    free(c->own);
+    free(c->other_first);
+    free(c->other);
     free(c->virial_field);
     *c = (struct contacts){0};
 }
@@ -68,9 +77,9 @@ static void add_wall(struct contacts *c, const struct grains *g, double threshol
                                               .overlap = (float)(g->radius[i] - distance),
                                               .rest = -0.98 * support,
                                               .support = support,
+                                              .reduced_mass = g->area[i],
                                               .nx = nx,
-                                              .ny = ny,
-                                              .distance = distance};
+                                              .ny = ny};
 }
 
 /* The threshold fades with depth, so that a pair that creeps together stops. */
@@ -90,117 +99,134 @@ static void add_pairs(struct contacts *c, const struct grains *g, double thresho
                              .wall = -1,
                              .overlap = (float)(reach - d),
                              .rest = threshold * fmax(0, 1 - (reach - d) * per_rest),
+                             .reduced_mass = 1 / (g->inverse_mass[i] + g->inverse_mass[j]),
                              .nx = d > 0 ? dx / d : 0,
-                             .ny = d > 0 ? dy / d : 1,
-                             .distance = d};
+                             .ny = d > 0 ? dy / d : 1};
     }
 }
 
-static enum status find_contacts(struct contacts *c, const struct grains *g, double threshold,
+static enum status list_contacts(struct contacts *c, const struct grains *g, double threshold,
                                  struct fault *fault) {
     const struct neighbours *n = &c->neighbours;
     c->count = 0;
     for (size_t i = 0; i < g->count; i++) {
         if (make_room(c, c->count + 4 + n->first[i + 1] - n->first[i], fault) != STATUS_OK)
             return fault->status;
+        c->own[i] = (int32_t)c->count;
         add_wall(c, g, threshold, i, WALL_BOTTOM, g->y[i], 0, 1);
         add_wall(c, g, threshold, i, WALL_LEFT, g->x[i], 1, 0);
         add_wall(c, g, threshold, i, WALL_RIGHT, n->width - g->x[i], -1, 0);
         add_pairs(c, g, threshold, i);
         add_wall(c, g, threshold, i, WALL_TOP, n->height - g->y[i], 0, -1);
     }
+    c->own[g->count] = (int32_t)c->count;
     return STATUS_OK;
 }
 
-/* adjacent[adjacent_first[i] .. adjacent_first[i+1]-1]: contacts of grain i. */
-static void find_adjacent(struct contacts *c, size_t grains) {
-    int32_t *first = c->adjacent_first;
+/* The contacts in which each grain is j, by counting. */
+static void find_others(struct contacts *c, size_t grains) {
+    int32_t *first = c->other_first;
     memset(first, 0, (grains + 2) * sizeof *first);
-    for (size_t k = 0; k < c->count; k++) {
-        first[c->contact[k].i + 1]++;
-        if (c->contact[k].wall < 0)
-            first[c->contact[k].j + 1]++;
-    }
+    for (size_t k = 0; k < c->count; k++)
+        first[c->contact[k].j + 1]++; /* walls count too, past the last grain */
     for (size_t i = 0; i < grains; i++)
         first[i + 1] += first[i];
-    for (size_t k = 0; k < c->count; k++) {
-        c->adjacent[first[c->contact[k].i]++] = (int32_t)k;
+    for (size_t k = 0; k < c->count; k++)
         if (c->contact[k].wall < 0)
-            c->adjacent[first[c->contact[k].j]++] = (int32_t)k;
-    }
+            c->other[first[c->contact[k].j]++] = (int32_t)k;
     memmove(first + 1, first, grains * sizeof *first);
     first[0] = 0;
 }
 
-/* -- resolving ------------------------------------------------------------- */
-
-static inline double approach_speed(const struct contact *k, const struct grains *g) {
-    return -((g->vx[k->i] - g->vx[k->j]) * k->nx + (g->vy[k->i] - g->vy[k->j]) * k->ny);
+enum status contacts_find(struct contacts *c, struct grains *g, const struct contact_rule *rule,
+                          struct fault *fault) {
+    if (neighbours_update(&c->neighbours, g, fault) != STATUS_OK ||
+        list_contacts(c, g, rule->threshold, fault) != STATUS_OK)
+        return fault->status;
+    find_others(c, g->count);
+    return STATUS_OK;
 }
 
-/* Collide contact k at an approach speed above the threshold. */
-static inline void collide(struct contacts *c, struct contact *k, struct grains *g, double speed,
+/* -- resolving ------------------------------------------------------------- */
+
+static inline double approach_speed(const struct contact *k, const struct body *body) {
+    const struct body *a = &body[k->i], *b = &body[k->j];
+    return -((a->vx - b->vx) * k->nx + (a->vy - b->vy) * k->ny);
+}
+
+/* Collide contact k at an approach speed above its rest. */
+static inline void collide(struct contacts *c, struct contact *k, double speed,
                            const struct contact_rule *rule) {
-    bool elastic =
-        g->last_hit[k->i] >= rule->step - 1 || (k->wall < 0 && g->last_hit[k->j] >= rule->step - 1);
+    struct body *a = &c->body[k->i], *b = &c->body[k->j];
+    bool elastic = a->last_hit >= rule->step - 1 || b->last_hit >= rule->step - 1;
     double leaving = (elastic ? 1 : rule->restitution) * speed;
     if (leaving < k->support)
         leaving = k->support;
-    double wi = g->inverse_mass[k->i], wj = g->inverse_mass[k->j];
-    double impulse = (speed + leaving) / (wi + wj);
-    g->vx[k->i] += impulse * wi * k->nx;
-    g->vy[k->i] += impulse * wi * k->ny;
-    g->vx[k->j] -= impulse * wj * k->nx;
-    g->vy[k->j] -= impulse * wj * k->ny;
-    g->last_hit[k->i] = g->last_hit[k->j] = rule->step;
+    double impulse = (speed + leaving) * k->reduced_mass;
+    double to_a = impulse * a->inverse_mass, to_b = impulse * b->inverse_mass;
+    a->vx += to_a * k->nx;
+    a->vy += to_a * k->ny;
+    b->vx -= to_b * k->nx;
+    b->vy -= to_b * k->ny;
+    a->last_hit = rule->step;
+    b->last_hit = k->wall < 0 ? rule->step : GRAINS_NEVER_HIT;
     k->impulse += impulse;
     c->tally.collisions++;
     c->tally.elastic += elastic;
-    c->tally.dissipated += 0.5 * (speed * speed - leaving * leaving) / (wi + wj);
+    c->tally.dissipated += 0.5 * (speed * speed - leaving * leaving) * k->reduced_mass;
 }
 
-static inline void mark_adjacent(struct contacts *c, int32_t grain) {
-    for (int32_t a = c->adjacent_first[grain]; a < c->adjacent_first[grain + 1]; a++)
-        c->todo[c->adjacent[a] / 64] |= (uint64_t)1 << (c->adjacent[a] % 64);
+/* Set the bits from first to end - 1, a word at a time. */
+static inline void mark_run(uint64_t *todo, int32_t first, int32_t end) {
+    while (first < end) {
+        int32_t room = 64 - first % 64, run = end - first < room ? end - first : room;
+        todo[first / 64] |= ~(uint64_t)0 >> (64 - run) << (first % 64);
+        first += run;
+    }
+}
+
+static inline void mark(struct contacts *c, int32_t grain) {
+    mark_run(c->todo, c->own[grain], c->own[grain + 1]);
+    for (int32_t n = c->other_first[grain]; n < c->other_first[grain + 1]; n++)
+        c->todo[c->other[n] / 64] |= (uint64_t)1 << (c->other[n] % 64);
 }
 
 /* Look at contact number n; collide it and mark what must be looked at again. */
-static inline bool visit(struct contacts *c, struct grains *g, size_t n,
-                         const struct contact_rule *rule) {
+static inline bool visit(struct contacts *c, size_t n, const struct contact_rule *rule) {
     struct contact *k = &c->contact[n];
     c->todo[n / 64] &= ~((uint64_t)1 << (n % 64));
-    double speed = approach_speed(k, g);
+    double speed = approach_speed(k, c->body);
     if (!(speed > k->rest))
         return false;
-    collide(c, k, g, speed, rule);
-    mark_adjacent(c, k->i);
+    collide(c, k, speed, rule);
+    mark(c, k->i);
     if (k->wall < 0)
-        mark_adjacent(c, k->j);
+        mark(c, k->j);
     c->todo[n / 64] &= ~((uint64_t)1 << (n % 64));
     return true;
 }
 
-static bool sweep_up(struct contacts *c, struct grains *g, const struct contact_rule *rule) {
+static bool sweep_up(struct contacts *c, const struct contact_rule *rule) {
     bool any = false;
     for (size_t w = 0; w < words(c->count); w++) {
         uint64_t ahead = ~(uint64_t)0, bits;
         while ((bits = c->todo[w] & ahead)) {
             int bit = __builtin_ctzll(bits);
             ahead = bit == 63 ? 0 : ~(uint64_t)0 << (bit + 1);
-            any |= visit(c, g, 64 * w + (size_t)bit, rule);
+            any |= visit(c, 64 * w + (size_t)bit, rule);
         }
     }
     return any;
 }
 
-static bool sweep_down(struct contacts *c, struct grains *g, const struct contact_rule *rule) {
+static bool sweep_down(struct contacts *c, const struct contact_rule *rule) {
     bool any = false;
     for (size_t w = words(c->count); w-- > 0;) {
         uint64_t ahead = ~(uint64_t)0, bits;
         while ((bits = c->todo[w] & ahead)) {
             int bit = 63 - __builtin_clzll(bits);
             ahead = ((uint64_t)1 << bit) - 1;
-            any |= visit(c, g, 64 * w + (size_t)bit, rule);
+            any |= visit(c, 64 * w + (size_t)bit, rule);
         }
     }
     return any;
@@ -210,7 +236,7 @@ static enum status too_many_sweeps(const struct contacts *c, const struct grains
                                    const struct contact_rule *rule, struct fault *fault) {
     size_t worst[3] = {0}, found = 0;
     for (size_t n = 0; n < c->count; n++) {
-        if (approach_speed(&c->contact[n], g) <= c->contact[n].rest)
+        if (approach_speed(&c->contact[n], c->body) <= c->contact[n].rest)
             continue;
         size_t at = found < 3 ? found++ : 2;
         for (worst[at] = n;
@@ -227,7 +253,7 @@ static enum status too_many_sweeps(const struct contacts *c, const struct grains
         int32_t other = k->wall < 0 ? g->id[k->j] : -1 - k->wall;
         fault_add(fault, STATUS_NUMERICAL,
                   "  grains %d and %d (negative: wall) at (%.3f, %.3f) l approach at %.3g U0",
-                  g->id[k->i], other, g->x[k->i], g->y[k->i], approach_speed(k, g));
+                  g->id[k->i], other, g->x[k->i], g->y[k->i], approach_speed(k, c->body));
     }
     return fault->status;
 }
@@ -238,6 +264,14 @@ static size_t site_of_pair(const struct contacts *c, const struct grains *g,
     size_t i = (size_t)(0.5 * (g->x[k->i] + g->x[k->j]) + 0.5);
     size_t j = (size_t)(0.5 * (g->y[k->i] + g->y[k->j]) + 0.5);
     return j * (size_t)c->sites_x + i;
+}
+
+static double wall_distance(const struct contacts *c, const struct grains *g,
+                            const struct contact *k) {
+    const struct neighbours *n = &c->neighbours;
+    const double distance[WALL_COUNT] = {g->x[k->i], n->width - g->x[k->i], g->y[k->i],
+                                         n->height - g->y[k->i]};
+    return distance[k->wall];
 }
 
 static void tally_step(struct contacts *c, const struct grains *g, int sweeps) {
@@ -251,25 +285,37 @@ static void tally_step(struct contacts *c, const struct grains *g, int sweeps) {
         const struct contact *k = &c->contact[n];
         if (k->overlap > deepest)
             deepest = k->overlap;
+        if (k->impulse == 0)
+            continue;
         if (k->wall < 0) {
-            t->virial += k->impulse * k->distance;
-            c->virial_field[site_of_pair(c, g, k)] += k->impulse * k->distance;
+            double virial = k->impulse * hypot(g->x[k->i] - g->x[k->j], g->y[k->i] - g->y[k->j]);
+            t->virial += virial;
+            c->virial_field[site_of_pair(c, g, k)] += virial;
         } else {
             t->wall_impulse[k->wall] += k->impulse;
-            t->wall_virial[k->wall] += k->impulse * k->distance;
+            t->wall_virial[k->wall] += k->impulse * wall_distance(c, g, k);
         }
     }
     t->largest_overlap = deepest;
 }
 
+static void take_bodies(struct contacts *c, const struct grains *g) {
+    for (size_t i = 0; i < g->count; i++)
+        c->body[i] = (struct body){g->vx[i], g->vy[i], g->inverse_mass[i], g->last_hit[i]};
+    c->body[g->count] = (struct body){.last_hit = GRAINS_NEVER_HIT}; /* the walls */
+}
+
+static void give_bodies(const struct contacts *c, struct grains *g) {
+    for (size_t i = 0; i < g->count; i++) {
+        g->vx[i] = c->body[i].vx;
+        g->vy[i] = c->body[i].vy;
+        g->last_hit[i] = c->body[i].last_hit;
+    }
+}
+
 enum status contacts_resolve(struct contacts *c, struct grains *g, const struct contact_rule *rule,
                              struct fault *fault) {
-    if (neighbours_update(&c->neighbours, g, fault) != STATUS_OK)
-        return fault->status;
-    if (find_contacts(c, g, rule->threshold, fault) != STATUS_OK)
-        return fault->status;
-    find_adjacent(c, g->count);
-    g->vx[g->count] = g->vy[g->count] = 0;
+    take_bodies(c, g);
     if (c->count > 0)
         memset(c->todo, 0xff, words(c->count) * sizeof *c->todo);
     if (c->count % 64)
@@ -279,9 +325,9 @@ enum status contacts_resolve(struct contacts *c, struct grains *g, const struct 
     while (again) {
         if (sweeps == CONTACTS_MAX_SWEEPS)
             return too_many_sweeps(c, g, rule, fault);
-        again = sweeps++ % 2 ? sweep_down(c, g, rule) : sweep_up(c, g, rule);
+        again = sweeps++ % 2 ? sweep_down(c, rule) : sweep_up(c, rule);
     }
-    g->last_hit[g->count] = GRAINS_NEVER_HIT;
+    give_bodies(c, g);
     tally_step(c, g, sweeps);
     return STATUS_OK;
 }

@@ -28,14 +28,20 @@ enum { WALL_LEFT, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, WALL_COUNT };
 enum { CONTACTS_MAX_SWEEPS = 100000 };
 #define CONTACTS_REST_OVERLAP 0.04 /* of the largest diameter */
 
-struct contact {
+struct contact {          /* one cache line */
     int32_t i, j;         /* grains; j == grain count: a wall */
-    int32_t wall;         /* which, or -1 */
-    float overlap;        /* (l) */
     double nx, ny;        /* unit normal, from j to i */
-    double distance;      /* between centres, or from centre to wall (l) */
     double rest, support; /* approach that needs no collision; least speed of leaving (U0) */
+    double reduced_mass;  /* of the two (l^2) */
     double impulse;       /* exchanged in this step (l^2 U0) */
+    float overlap;        /* (l) */
+    int32_t wall;         /* which, or -1 */
+};
+
+/* What a collision reads and writes of a grain, side by side. */
+struct body {
+    double vx, vy, inverse_mass;
+    int64_t last_hit;
 };
 
 /* Sums since the start of the run. */
@@ -53,13 +59,15 @@ struct contacts {
     struct neighbours neighbours;
     struct contact *contact; /* contact[0 .. count-1] of this step */
     size_t count, capacity;
-    uint64_t *todo;          /* one bit a contact */
-    int32_t *adjacent_first; /* [0 .. grains+1] */
-    int32_t *adjacent;       /* contacts of each grain */
-    double rest_overlap;     /* overlap at which no approach counts as rest (l) */
-    double *virial_field;    /* virial by nearest lattice site of the pair's middle;
-                              * [0 .. sites-1], row by row from the floor (l^3 U0) */
-    int sites_x;             /* sites a row */
+    uint64_t *todo;    /* one bit a contact */
+    struct body *body; /* body[0 .. grains]: while contacts are resolved */
+    /* Contacts of grain n: own[n] .. own[n+1]-1, in which it is i, and
+     * other[other_first[n] .. other_first[n+1]-1], in which it is j. */
+    int32_t *own, *other_first, *other;
+    double rest_overlap;  /* overlap at which no approach counts as rest (l) */
+    double *virial_field; /* virial by nearest lattice site of the pair's middle;
+                           * [0 .. sites-1], row by row from the floor (l^3 U0) */
+    int sites_x;          /* sites a row */
     struct contact_tally tally;
 };
 
@@ -73,8 +81,12 @@ enum status contacts_create(struct contacts *c, size_t grains, double width, dou
                             double diameter_max, struct fault *fault);
 void contacts_free(struct contacts *c);
 
-/* Find all contacts at the present positions and resolve them.  Grains may be
- * reordered.  STATUS_NUMERICAL after CONTACTS_MAX_SWEEPS names the worst pairs. */
+/* List all contacts at the present positions.  Grains may be reordered. */
+enum status contacts_find(struct contacts *c, struct grains *g, const struct contact_rule *rule,
+                          struct fault *fault);
+
+/* Collide what contacts_find listed until nothing approaches.  STATUS_NUMERICAL
+ * after CONTACTS_MAX_SWEEPS names the worst pairs. */
 enum status contacts_resolve(struct contacts *c, struct grains *g, const struct contact_rule *rule,
                              struct fault *fault);
 

@@ -124,8 +124,11 @@ static enum status move_grains(struct graingas *s, double *clock, struct fault *
     struct contact_rule rule = {.restitution = p->restitution,
                                 .threshold = p->approach_threshold * fall * p->dt_tau,
                                 .step = s->step + 1};
+    if (contacts_find(&s->contacts, &s->grains, &rule, fault) != STATUS_OK)
+        return fault->status;
+    charge(s, PART_SEARCH, clock);
     contacts_resolve(&s->contacts, &s->grains, &rule, fault);
-    charge(s, PART_CONTACTS, clock);
+    charge(s, PART_COLLISIONS, clock);
     return fault->status;
 }
 
@@ -143,7 +146,8 @@ static enum status graingas_step(void *state, struct fault *fault) {
 
 static void report_cost(const void *state, struct json *j) {
     const struct graingas *s = state;
-    static const char *const name[PART_COUNT] = {"halo_s", "pressure_s", "push_s", "contacts_s"};
+    static const char *const name[PART_COUNT] = {"halo_s", "pressure_s", "push_s", "search_s",
+                                                 "collisions_s"};
     for (int k = 0; k < PART_COUNT; k++) {
         json_key(j, name[k]);
         json_real(j, s->seconds[k]);

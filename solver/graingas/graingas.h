@@ -13,7 +13,7 @@
 #include "solver/graingas/contacts.h"
 #include "solver/graingas/gas.h"
 
-enum part { PART_HALO, PART_PRESSURE, PART_PUSH, PART_CONTACTS, PART_COUNT };
+enum part { PART_HALO, PART_PRESSURE, PART_PUSH, PART_SEARCH, PART_COLLISIONS, PART_COUNT };
 
 struct graingas {
     struct graingas_parameters parameters;

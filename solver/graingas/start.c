@@ -132,7 +132,8 @@ static enum status equilibrate(struct grains *g, const struct graingas_parameter
     long long steps = llround(p->equilibrate_tau / p->dt_tau);
     for (rule.step = 1; rule.step <= steps && fault->status == STATUS_OK; rule.step++) {
         push_free(g, p->dt_tau);
-        contacts_resolve(&c, g, &rule, fault);
+        if (contacts_find(&c, g, &rule, fault) == STATUS_OK)
+            contacts_resolve(&c, g, &rule, fault);
     }
     if (g->count > 0)
         *collisions_per_grain = 2.0 * (double)c.tally.collisions / (double)g->count;

@@ -34,6 +34,7 @@ static struct contacts resolve(struct grains *g, const struct contact_rule *rule
     struct fault fault = FAULT_NONE;
     struct contacts c;
     unit_ok(contacts_create(&c, g->count, 9, 13, 0.5, &fault), &fault);
+    unit_ok(contacts_find(&c, g, rule, &fault), &fault);
     unit_ok(contacts_resolve(&c, g, rule, &fault), &fault);
     return c;
 }
