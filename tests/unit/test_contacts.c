@@ -164,7 +164,7 @@ static bool plain_collide(const struct contact *k, struct grains *g,
         g->last_hit[k->i] >= rule->step - 1 || (k->wall < 0 && g->last_hit[k->j] >= rule->step - 1);
     double leaving = fmax((elastic ? 1 : rule->restitution) * speed, k->support);
     double wi = g->inverse_mass[k->i], wj = g->inverse_mass[k->j];
-    double impulse = (speed + leaving) / (wi + wj);
+    double impulse = (speed + leaving) * k->reduced_mass;
     g->vx[k->i] += impulse * wi * k->nx;
     g->vy[k->i] += impulse * wi * k->ny;
     g->vx[k->j] -= impulse * wj * k->nx;
