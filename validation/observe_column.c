@@ -26,7 +26,8 @@ enum {
     UNEVENNESS,
     SQUARE_SLOPE,
     SQUARE_BEND,
-    UNSTEADINESS
+    UNSTEADINESS,
+    ENDS_MEAN
 };
 
 struct column {
@@ -136,6 +137,7 @@ static enum status measure(struct run_view *v, const double *settings, struct me
     out->value[UNEVENNESS] = uneven / fabs(drop);
     out->value[SQUARE_SLOPE] = (c.square[top] - c.square[0]) / c.box.height_l;
     out->value[SQUARE_BEND] = bend(c.square, c.box.ny);
+    out->value[ENDS_MEAN] = (c.mean[0] + c.mean[top]) / 2;
     out->value[UNSTEADINESS] = unsteadiness(&c, drop);
     double *height = c.square; /* no longer needed */
     for (size_t j = 0; j <= top; j++)
@@ -160,7 +162,8 @@ const struct recipe recipe_column = {
                {"unevenness", "1", "largest deviation from the row's mean, over the drop"},
                {"square_slope", "1/l", "slope of (1+p)^2 over height"},
                {"square_bend", "1", "as bend, of (1+p)^2"},
-               {"unsteadiness", "1", "largest change between the last two frames, over the drop"}},
+               {"unsteadiness", "1", "largest change between the last two frames, over the drop"},
+               {"ends_mean", "P0", "mean of the pressures at bottom and top"}},
     .curves = CURVES,
     .measure = measure,
 };

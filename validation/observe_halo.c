@@ -102,6 +102,41 @@ static enum status measure(struct run_view *v, const double *settings, struct me
     return status;
 }
 
+static enum status measure_uniform(struct run_view *v, const double *settings,
+                                   struct measurement *out, struct fault *fault) {
+    (void)settings;
+    struct observe_box box;
+    const struct series *s;
+    enum status status = observe_box(v, &box, fault);
+    if (!status)
+        status = observe_field(v, "fields/solid_fraction", &box, 1, &s, fault);
+    if (status)
+        return status;
+    double low = s->value[0], high = s->value[0], sum = 0;
+    for (size_t j = 0; j < box.ny; j++)
+        for (size_t i = 0; i < box.nx; i++) {
+            double rho = s->value[j * box.nx + i];
+            low = fmin(low, rho);
+            high = fmax(high, rho);
+            sum += rho * closure_site_volume(i, j, box.nx, box.ny);
+        }
+    out->value[0] = sum / (box.width_l * box.height_l);
+    out->value[1] = high - low;
+    return STATUS_OK;
+}
+
+static const char *const FRACTION_ONLY[] = {"fields/solid_fraction", NULL};
+
+const struct recipe recipe_uniform_fraction = {
+    .name = "uniform-fraction",
+    .title = "Mean solid fraction of the lattice, and how uneven it is",
+    .source = "MFM, Eq. 15",
+    .datasets = FRACTION_ONLY,
+    .output = {{"solid_fraction", "1", "mean over the box at the first sample"},
+               {"unevenness", "1", "largest less smallest of any site"}},
+    .measure = measure_uniform,
+};
+
 static const char *const DATASETS[] = {"particles/grains/position", "particles/grains/velocity",
                                        "particles/grains/radius",   "fields/solid_fraction",
                                        "fields/grain_velocity",     NULL};

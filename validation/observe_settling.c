@@ -4,9 +4,10 @@
  * speed), the mean over its rows; the pairs of all samples are averaged (MFM,
  * Section III, five samples).  Three things make it robust: sparse rows are
  * dropped before the maxima are taken (observe_profile.h); a sample whose
- * plateau has fewer than min_rows rows is not used; and once the speed falls
- * below a share of the largest one seen, settling has ended and that sample
- * and all later ones are not used.
+ * plateau has fewer than min_rows rows is not used; and once the plateau's speed
+ * has fallen below a share of the largest one seen, the settled bed's upper edge
+ * has reached it, settling has ended, and that sample and all later ones are not
+ * used.
  *
  * Source:     MFM, Section III and Fig. 4; robustness: docs/theory.md.
  * Leaves out: the front's speed (observe_front.c).
@@ -19,7 +20,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MIN_ROWS, ROW_L, FROM_TAU, ENDED, MIN_SAMPLES };
+enum { MIN_ROWS, ROW_L, FROM_TAU, EVERY_TAU, ENDED, MIN_SAMPLES };
 enum { SPEED, SOLID_FRACTION, SAMPLES, ROWS, SPEED_SPREAD, LAST_TAU };
 
 struct sums {
@@ -60,11 +61,18 @@ struct task {
     struct profile profile;
 };
 
+static bool is_wanted(double time, const double *settings, double dt) {
+    double every = settings[EVERY_TAU];
+    if (time <= 0 || time < settings[FROM_TAU] - dt / 2)
+        return false;
+    return every == 0 || fabs(time - every * nearbyint(time / every)) <= dt / 2;
+}
+
 static enum status collect(struct task *k, const double *settings, struct sums *s, struct trace *t,
                            struct fault *fault) {
     for (size_t f = 0; f < k->grains.frames; f++) {
         double time = k->grains.time[f];
-        if (time <= 0 || time < settings[FROM_TAU] - k->physics.dt_tau / 2)
+        if (!is_wanted(time, settings, k->physics.dt_tau))
             continue;
         enum status status = profile_measure(&k->profile, k->view, &k->box, &k->grains,
                                              k->physics.area_to_volume, f, fault);
@@ -165,7 +173,9 @@ const struct recipe recipe_settling = {
     .setting = {{"min_rows", "1", "rows that a plateau must have to be used", 8, 1, 1000},
                 {"row_l", "l", "height of a row", 1, 0.1, 10},
                 {"from_tau", "tau", "samples before this are not used", 0, 0, 1e6},
-                {"ended", "1", "settling has ended below this share of the largest speed", 0.5, 0,
+                {"every_tau", "tau", "only samples at multiples of this are used; 0: all", 0, 0,
+                 1e6},
+                {"ended", "1", "settling has ended below this share of the largest speed", 0.85, 0,
                  1},
                 {"min_samples", "1", "samples needed", 1, 1, 1000}},
     .output = {{"speed", "U0", "mean speed of the plateau, positive downwards"},

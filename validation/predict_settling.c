@@ -20,6 +20,20 @@ static double own_law_corrected(const double *in) {
     return closure_settling_speed(CLOSURE_CORRECTED, in[0], in[1]);
 }
 
+/* in: speed downwards, solid_fraction, solid_fraction_min, froude, gravity.  Drag is
+ * linear in the speed and carries the weight at the own law's speed; upwards. */
+static double drag(enum closure_law law, const double *in) {
+    return (in[0] / closure_settling_speed(law, in[1], in[2]) - in[4]) / in[3];
+}
+
+static double drag_published(const double *in) {
+    return drag(CLOSURE_PUBLISHED, in);
+}
+
+static double drag_corrected(const double *in) {
+    return drag(CLOSURE_CORRECTED, in);
+}
+
 static double eq20(const double *in) {
     return closure_settling_speed_eq20(in[0]);
 }
@@ -43,4 +57,16 @@ const struct prediction PREDICT_SETTLING[PREDICT_SETTLING_COUNT] = {
      .source = "MFM, Eq. 20",
      .input = {"solid_fraction", NULL},
      .at = eq20},
+    {.name = "settling-acceleration-published",
+     .title = "Acceleration of a homogeneous suspension, published law",
+     .unit = "U0/tau",
+     .source = "MFM, Eqs. 8 and 11; docs/theory.md",
+     .input = {"speed", "solid_fraction", "solid_fraction_min", "froude", "gravity", NULL},
+     .at = drag_published},
+    {.name = "settling-acceleration-corrected",
+     .title = "Acceleration of a homogeneous suspension, corrected law",
+     .unit = "U0/tau",
+     .source = "MFM, Eqs. 8 and 11; docs/theory.md",
+     .input = {"speed", "solid_fraction", "solid_fraction_min", "froude", "gravity", NULL},
+     .at = drag_corrected},
 };

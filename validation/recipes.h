@@ -4,21 +4,22 @@
 
 #include "validation/recipe.h"
 
-extern const struct recipe recipe_settling;      /* observe_settling.c */
-extern const struct recipe recipe_front;         /* observe_front.c */
-extern const struct recipe recipe_fluctuations;  /* observe_fluctuations.c */
-extern const struct recipe recipe_contacts;      /* observe_contacts.c */
-extern const struct recipe recipe_mode_decay;    /* observe_mode.c */
-extern const struct recipe recipe_column;        /* observe_column.c */
-extern const struct recipe recipe_gas_invariant; /* observe_invariant.c */
-extern const struct recipe recipe_halo;          /* observe_halo.c */
-extern const struct recipe recipe_gas_work;      /* observe_work.c */
-extern const struct recipe recipe_acceleration;  /* observe_flight.c */
-extern const struct recipe recipe_free_fall;     /* observe_flight.c */
-extern const struct recipe recipe_energy;        /* observe_energy.c */
-extern const struct recipe recipe_mirror;        /* observe_mirror.c */
-extern const struct recipe recipe_pair;          /* observe_collision.c */
-extern const struct recipe recipe_corner_hits;   /* observe_collision.c */
-extern const struct recipe recipe_disc_pressure; /* observe_discs.c */
+extern const struct recipe recipe_settling;         /* observe_settling.c */
+extern const struct recipe recipe_front;            /* observe_front.c */
+extern const struct recipe recipe_fluctuations;     /* observe_fluctuations.c */
+extern const struct recipe recipe_contacts;         /* observe_contacts.c */
+extern const struct recipe recipe_mode_decay;       /* observe_mode.c */
+extern const struct recipe recipe_column;           /* observe_column.c */
+extern const struct recipe recipe_gas_invariant;    /* observe_invariant.c */
+extern const struct recipe recipe_halo;             /* observe_halo.c */
+extern const struct recipe recipe_uniform_fraction; /* observe_halo.c */
+extern const struct recipe recipe_gas_work;         /* observe_work.c */
+extern const struct recipe recipe_acceleration;     /* observe_flight.c */
+extern const struct recipe recipe_free_fall;        /* observe_flight.c */
+extern const struct recipe recipe_energy;           /* observe_energy.c */
+extern const struct recipe recipe_mirror;           /* observe_mirror.c */
+extern const struct recipe recipe_pair;             /* observe_collision.c */
+extern const struct recipe recipe_corner_hits;      /* observe_collision.c */
+extern const struct recipe recipe_disc_pressure;    /* observe_discs.c */
 
 #endif
