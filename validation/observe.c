@@ -146,6 +146,10 @@ enum status observe_frame(struct run_view *v, const char *name, const struct ser
                      name, time_tau);
 }
 
+bool observe_reaches(const struct series *s, double time_tau) {
+    return time_tau <= s->time[s->frames - 1] * (1 + 1e-9);
+}
+
 void observe_none(struct measurement *m, size_t output, const char *format, ...) {
     m->value[output] = NAN;
     if (m->reason[0])

@@ -55,6 +55,9 @@ enum status observe_values(struct run_view *v, const char *name, size_t size,
 enum status observe_frame(struct run_view *v, const char *name, const struct series *s,
                           double time_tau, size_t *frame, struct fault *fault);
 
+/* Does the series go on to this time at all? */
+bool observe_reaches(const struct series *s, double time_tau);
+
 /* value[output] becomes NaN; the first reason said is kept. */
 void observe_none(struct measurement *m, size_t output, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -118,6 +118,11 @@ static enum status measure_at(struct task *k, struct measurement *out, double ti
                               struct fault *fault) {
     size_t frame;
     struct window w;
+    if (!observe_reaches(k->field, time)) {
+        observe_none(out, variance, "no sample as late as %g tau", time);
+        observe_none(out, length, "no sample");
+        return STATUS_OK;
+    }
     enum status status =
         observe_frame(k->view, "fields/solid_fraction", k->field, time, &frame, fault);
     if (!status)

@@ -41,6 +41,8 @@ static enum status find_front(struct run_view *v, const struct observe_box *box,
                               struct fault *fault) {
     size_t frame;
     out->width = out->position = NAN;
+    if (!observe_reaches(g->series, time)) /* sampled for less long: no value, no fault */
+        return STATUS_OK;
     enum status status =
         observe_frame(v, "particles/grains/position", g->series, time, &frame, fault);
     if (!status)
@@ -92,8 +94,8 @@ static enum status measure(struct run_view *v, const double *settings, struct me
                            settings[LATE_TAU]};
     for (size_t i = 0; i <= FALL_SPEED; i++)
         if (isnan(out->value[i]))
-            observe_none(out, i, "no plateau of %g rows is left at %g tau", settings[MIN_ROWS],
-                         when[i]);
+            observe_none(out, i, "no plateau of %g rows at %g tau, or no sample so late",
+                         settings[MIN_ROWS], when[i]);
     return STATUS_OK;
 }
 
