@@ -77,8 +77,8 @@ static enum status build_case(struct builder *b, const struct assemble_case *c,
                                 .title = file->title,
                                 .source = file->source,
                                 .question = file->question};
-    out->command = arena_text(b->arena, "bedcheck run %s --tier %s", file->name,
-                              b->in->record->tier);
+    out->command =
+        arena_text(b->arena, "bedcheck run %s --tier %s", file->name, b->in->record->tier);
     out->skip_reason = c->plan->skip_reason != NULL ? c->plan->skip_reason : c->not_run;
     out->skipped = c->rows == NULL;
     if (out->command == NULL)
@@ -164,8 +164,8 @@ static void add_times(struct builder *b) {
         failed += o->state == RUN_FAILED;
         seconds += isfinite(o->seconds) ? o->seconds : 0;
     }
-    add_fact(b, "runs", arena_text(b->arena, "%zu made, %zu reused, %zu failed", made, reused,
-                                   failed));
+    add_fact(b, "runs",
+             arena_text(b->arena, "%zu made, %zu reused, %zu failed", made, reused, failed));
     add_fact(b, "solver time, all runs", arena_text(b->arena, "%.1f s", seconds));
 }
 
@@ -174,9 +174,6 @@ static void build_facts(struct builder *b) {
     add_fact(b, "bedcheck: version", build_version());
     add_fact(b, "bedcheck: commit", build_commit());
     add_fact(b, "bedcheck: dirty", build_dirty());
-    add_fact(b, "solver program", r->solver);
-    add_fact(b, "solver key", r->solver_key);
-    add_fact(b, "started", r->started);
     if (r->seed_offset != 0)
         add_fact(b, "seed offset", arena_text(b->arena, "%lld", r->seed_offset));
     add_times(b);

@@ -13,15 +13,15 @@ struct assemble_case {
     const struct plan_case *plan;
     const struct measured_case *measured; /* NULL: not judged, see plan->skip_reason or not_run */
     const struct rows *rows;
-    const char *not_run;                  /* why a case that was not skipped has no rows, or NULL */
+    const char *not_run; /* why a case that was not skipped has no rows, or NULL */
 };
 
 struct assemble_input {
     const struct folder_record *record;
-    const struct assemble_case *cases;    /* cases[0 .. case_count-1] */
+    const struct assemble_case *cases; /* cases[0 .. case_count-1] */
     size_t case_count;
     const struct plan *plan;
-    const struct outcome *outcome;        /* outcome[0 .. plan->run_count-1] */
+    const struct outcome *outcome; /* outcome[0 .. plan->run_count-1] */
     const struct folder *folder;
 };
 

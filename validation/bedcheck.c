@@ -21,15 +21,25 @@
 enum { MAX_WORDS = 256 };
 
 enum key {
-    KEY_CASES = 256, KEY_TIER, KEY_OUT, KEY_SOLVER, KEY_TAG, KEY_SKIP, KEY_SET, KEY_DRY_RUN,
-    KEY_FAILED, KEY_TIMEOUT, KEY_SEED_OFFSET, KEY_STALE
+    KEY_CASES = 256,
+    KEY_TIER,
+    KEY_OUT,
+    KEY_SOLVER,
+    KEY_TAG,
+    KEY_SKIP,
+    KEY_SET,
+    KEY_DRY_RUN,
+    KEY_FAILED,
+    KEY_TIMEOUT,
+    KEY_SEED_OFFSET,
+    KEY_STALE
 };
 
 /* Lists that the options point into. */
 struct line {
     struct command_options o;
     const char *pattern[MAX_WORDS], *tag[MAX_WORDS], *skip[MAX_WORDS], *setting[MAX_WORDS];
-    bool takes_folder;        /* the one argument is a folder of results */
+    bool takes_folder; /* the one argument is a folder of results */
     size_t patterns_needed;
 };
 
@@ -144,9 +154,12 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     }
 }
 
-#define OPTION_CASES {"cases", KEY_CASES, "DIR", 0, "Folder of case files", 0}
-#define OPTION_TIER  {"tier", KEY_TIER, "TIER", 0, "smoke (default), paper or large", 0}
-#define OPTION_TAG   {"tag", KEY_TAG, "TAG", 0, "Only cases with this tag (may be repeated)", 0}
+#define OPTION_CASES                                                                               \
+    { "cases", KEY_CASES, "DIR", 0, "Folder of case files", 0 }
+#define OPTION_TIER                                                                                \
+    { "tier", KEY_TIER, "TIER", 0, "smoke (default), paper or large", 0 }
+#define OPTION_TAG                                                                                 \
+    { "tag", KEY_TAG, "TAG", 0, "Only cases with this tag (may be repeated)", 0 }
 
 static const struct argp_option list_options[] = {OPTION_CASES, OPTION_TIER, OPTION_TAG, {0}};
 static const struct argp_option show_options[] = {OPTION_CASES, OPTION_TIER, {0}};
@@ -158,7 +171,7 @@ static const struct argp_option run_options[] = {
     OPTION_CASES,
     OPTION_TIER,
     OPTION_TAG,
-    {"out", KEY_OUT, "DIR", 0, "Folder of results (default bedcheck-out)", 0},
+    {"out", KEY_OUT, "DIR", 0, "Folder of results (default bedcheck-out/TIER)", 0},
     {"solver", KEY_SOLVER, "COMMAND", 0, "The solver (default: bedsim beside bedcheck)", 0},
     {"jobs", 'j', "J", 0, "Runs at a time (default: the processors)", 0},
     {"dry-run", KEY_DRY_RUN, 0, 0, "Show runs, what is reused, minutes and bytes; run nothing", 0},
@@ -217,11 +230,12 @@ static const struct command commands[] = {
 static void print_usage(FILE *out) {
     fputs("Usage: bedcheck COMMAND [OPTION...]\n\n", out);
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
-        fprintf(out, "  %-8s %-16s %s\n", commands[i].name, commands[i].arguments,
-                commands[i].doc);
-    fputs("\nbedcheck COMMAND --help tells the options of a command; bedcheck --version the build.\n"
-          "Exit codes: 0 all checks pass, 1 a check failed, 3 inconclusive, 2 bedcheck's own "
-          "trouble.\n", out);
+        fprintf(out, "  %-8s %-16s %s\n", commands[i].name, commands[i].arguments, commands[i].doc);
+    fputs(
+        "\nbedcheck COMMAND --help tells the options of a command; bedcheck --version the build.\n"
+        "Exit codes: 0 all checks pass, 1 a check failed, 3 inconclusive, 2 bedcheck's own "
+        "trouble.\n",
+        out);
 }
 
 /* -- surroundings -------------------------------------------------------------------- */
@@ -262,6 +276,9 @@ static char *find_solver(void) {
     return dotted;
 }
 
+static const char *const standard_out[] = {"bedcheck-out/smoke", "bedcheck-out/paper",
+                                           "bedcheck-out/large"};
+
 static int perform(const struct command *command, struct line *l) {
     struct console console = {.out = stdout, .errors = stderr, .live = isatty(2) == 1};
     char *cases = find_beside("../../validation/cases"), *solver = find_solver();
@@ -281,7 +298,7 @@ static int perform(const struct command *command, struct line *l) {
     if (o->jobs == 0)
         o->jobs = processors < 1 ? 1 : (size_t)processors;
     if (o->out == NULL)
-        o->out = "bedcheck-out";
+        o->out = standard_out[o->tier];
     if (o->cases_folder == NULL && !command->takes_folder && command->run != run_recipes)
         fprintf(stderr, "bedcheck: no folder of cases beside this program; use --cases DIR\n");
     else

@@ -15,8 +15,8 @@ enum status case_tier_find(const char *name, enum tier *out, struct fault *fault
             return STATUS_OK;
         }
     }
-    return fault_set(fault, STATUS_BAD_INPUT, "tier %s: no such tier; there are smoke, paper, large",
-                     name);
+    return fault_set(fault, STATUS_BAD_INPUT,
+                     "tier %s: no such tier; there are smoke, paper, large", name);
 }
 
 const char *case_comparison_name(enum comparison c) {
@@ -101,8 +101,8 @@ const char *case_value_text(struct arena *a, const struct yaml_node *value) {
         return value->text;
     const char *text = "[";
     for (size_t i = 0; i < value->count && text != NULL; i++)
-        text = arena_text(a, "%s%s%s", text, i == 0 ? "" : ";",
-                          case_value_text(a, &value->child[i]));
+        text =
+            arena_text(a, "%s%s%s", text, i == 0 ? "" : ";", case_value_text(a, &value->child[i]));
     return text == NULL ? NULL : arena_text(a, "%s]", text);
 }
 

@@ -91,8 +91,10 @@ static void read_check(struct case_reader *r, const struct layers *l, struct cas
     if (known)
         k->unit = case_read_unit(r, &k->number);
     if (known && k->kind == KIND_ORDER && !k->number.across)
-        case_read_fault(r, yaml_get(l->base, "kind"), "check %s: an order is fitted by `across`; "
-                        "%s belongs to one run", k->name, k->observable);
+        case_read_fault(r, yaml_get(l->base, "kind"),
+                        "check %s: an order is fitted by `across`; "
+                        "%s belongs to one run",
+                        k->name, k->observable);
     if (known && per != NULL && k->number.across)
         case_read_fault(r, per, "check %s: %s belongs to the whole sweep and takes no `per`",
                         k->name, k->observable);
@@ -161,9 +163,9 @@ static bool is_off(const struct yaml_node *over) {
 
 static bool override_is_good(const struct yaml_node *over) {
     struct fault told = FAULT_NONE; /* by check_overrides */
-    return over == NULL || schema_check(over, "override of a check", override_fields,
-                                        sizeof override_fields / sizeof *override_fields,
-                                        &told) == STATUS_OK;
+    return over == NULL ||
+           schema_check(over, "override of a check", override_fields,
+                        sizeof override_fields / sizeof *override_fields, &told) == STATUS_OK;
 }
 
 static void check_overrides(struct case_reader *r, const struct yaml_node *list,

@@ -119,8 +119,10 @@ void case_read_expect(struct case_reader *r, const struct yaml_node *n, struct c
         yaml_real(n, &out->value, &found);
         case_read_merge(r, &found);
     } else {
-        case_read_fault(r, n, "%s: must be a number, {value: , uncertainty: }, {prediction: , ...} "
-                              "or {by: , values: }", n->key);
+        case_read_fault(r, n,
+                        "%s: must be a number, {value: , uncertainty: }, {prediction: , ...} "
+                        "or {by: , values: }",
+                        n->key);
     }
 }
 

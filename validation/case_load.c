@@ -144,8 +144,9 @@ static void read_tiers(struct case_reader *r) {
         case_read_points(r, t);
     }
     if (!r->c->tier[TIER_SMOKE].present && r->c->large_only == NULL)
-        case_read_fault(r, tiers, "tiers: no smoke tier; a case too large for one says why with "
-                                  "large_only: REASON");
+        case_read_fault(r, tiers,
+                        "tiers: no smoke tier; a case too large for one says why with "
+                        "large_only: REASON");
     if (r->c->tier[TIER_SMOKE].present && r->c->large_only != NULL)
         case_read_fault(r, yaml_get(r->root, "large_only"),
                         "large_only: the case has a smoke tier all the same");
@@ -198,8 +199,8 @@ static void collect_datasets(struct case_reader *r) {
     const struct yaml_node *more = yaml_get(r->root, "also_write");
     size_t count = 0, kept = 0, room = more != NULL && more->kind == YAML_LIST ? more->count : 0;
     for (size_t i = 0; i < c->observable_count; i++) {
-        const char *const *d = c->observable[i].recipe == NULL ? NULL
-                                                               : c->observable[i].recipe->datasets;
+        const char *const *d =
+            c->observable[i].recipe == NULL ? NULL : c->observable[i].recipe->datasets;
         for (; d != NULL && *d != NULL; d++)
             room++;
     }
@@ -207,8 +208,8 @@ static void collect_datasets(struct case_reader *r) {
     if (all == NULL)
         return;
     for (size_t i = 0; i < c->observable_count; i++) {
-        const char *const *d = c->observable[i].recipe == NULL ? NULL
-                                                               : c->observable[i].recipe->datasets;
+        const char *const *d =
+            c->observable[i].recipe == NULL ? NULL : c->observable[i].recipe->datasets;
         for (; d != NULL && *d != NULL; d++)
             all[count++] = *d;
     }

@@ -26,8 +26,8 @@ static void read_settings(struct case_reader *r, const struct yaml_node *n,
     size_t count = 1;
     for (size_t i = 0; i < RECIPE_MAX_SETTINGS && o->recipe->setting[i].name != NULL; i++) {
         const struct recipe_setting *s = &o->recipe->setting[i];
-        field[count++] = (struct schema_field){s->name, SCHEMA_REAL, isnan(s->standard), s->min,
-                                               s->max,  NULL};
+        field[count++] =
+            (struct schema_field){s->name, SCHEMA_REAL, isnan(s->standard), s->min, s->max, NULL};
         o->setting[i] = s->standard;
     }
     if (!case_read_fields(r, n, o->recipe->name, field, count))
@@ -59,7 +59,8 @@ static void read_observable(struct case_reader *r, const struct yaml_node *n,
     const char *name[MAX_NAMES];
     for (size_t i = 0; i < count && i < MAX_NAMES; i++)
         name[i] = all[i]->name;
-    case_read_unknown(r, recipe, "recipe", recipe->text, name, count < MAX_NAMES ? count : MAX_NAMES);
+    case_read_unknown(r, recipe, "recipe", recipe->text, name,
+                      count < MAX_NAMES ? count : MAX_NAMES);
 }
 
 static void read_observables(struct case_reader *r) {
@@ -169,16 +170,19 @@ static void find_fit(struct case_reader *r, const struct yaml_node *n, struct ca
 }
 
 static void read_across(struct case_reader *r, const struct yaml_node *n, struct case_across *a) {
-    static const struct schema_field field[] = {
-        {"fit", SCHEMA_TEXT, true, 0, 0, NULL},     {"of", SCHEMA_TEXT, true, 0, 0, NULL},
-        {"along", SCHEMA_TEXT, true, 0, 0, NULL},   {"points", SCHEMA_MAP, false, 0, 0, NULL},
-        {"exact", SCHEMA_BOOLEAN, false, 0, 0, NULL}};
+    static const struct schema_field field[] = {{"fit", SCHEMA_TEXT, true, 0, 0, NULL},
+                                                {"of", SCHEMA_TEXT, true, 0, 0, NULL},
+                                                {"along", SCHEMA_TEXT, true, 0, 0, NULL},
+                                                {"points", SCHEMA_MAP, false, 0, 0, NULL},
+                                                {"exact", SCHEMA_BOOLEAN, false, 0, 0, NULL}};
     a->name = n->key;
     a->node = n;
     check_own_name(r, n, "across");
     if (n->kind != YAML_MAP) {
-        case_read_fault(r, n, "across %s: must be {fit: NAME, of: OBSERVABLE.OUTPUT, along: "
-                              "PARAMETER}", n->key);
+        case_read_fault(r, n,
+                        "across %s: must be {fit: NAME, of: OBSERVABLE.OUTPUT, along: "
+                        "PARAMETER}",
+                        n->key);
         return;
     }
     for (size_t i = 0; i < r->c->observable_count; i++) {
@@ -218,7 +222,8 @@ static void read_drawn(struct case_reader *r, const struct yaml_node *of, struct
     for (size_t i = 0; i < count; i++) {
         const struct yaml_node *n = of->kind == YAML_LIST ? &of->child[i] : of;
         const char *names[MAX_NAMES];
-        size_t k = 0, known = r->c->observable_count < MAX_NAMES ? r->c->observable_count : MAX_NAMES;
+        size_t k = 0,
+               known = r->c->observable_count < MAX_NAMES ? r->c->observable_count : MAX_NAMES;
         for (size_t j = 0; j < known; j++)
             names[j] = r->c->observable[j].name;
         if (n->kind == YAML_SCALAR)

@@ -14,8 +14,8 @@ static const struct case_parameter *grid_at(const struct grid *g, size_t point) 
     return &g->parameter[point * g->size];
 }
 
-static void name_parameters(struct case_reader *r, const struct grid *g,
-                            const struct yaml_node *n, const char *name) {
+static void name_parameters(struct case_reader *r, const struct grid *g, const struct yaml_node *n,
+                            const char *name) {
     const char *names[256];
     size_t count = g->size < 256 ? g->size : 256;
     for (size_t i = 0; i < count; i++)
@@ -86,8 +86,10 @@ static void use_across(struct case_reader *r, const struct grid *g, const struct
     for (size_t i = 0; i < t->axis_count; i++)
         swept |= strcmp(t->axis[i].name, a->along) == 0;
     if (!swept) {
-        case_read_fault(r, yaml_get(a->node, "along"), "along: %s is not swept in every tier that "
-                        "uses %s", a->along, a->name);
+        case_read_fault(r, yaml_get(a->node, "along"),
+                        "along: %s is not swept in every tier that "
+                        "uses %s",
+                        a->along, a->name);
         return;
     }
     for (size_t p = 0; p < g->count; p++) {
@@ -119,8 +121,10 @@ static void use_check(struct case_reader *r, const struct grid *g, const struct 
         use_filter(r, g, &a->points);
         use_across(r, g, t, a);
         if (k->points.map != NULL && yaml_get(k->points.map, a->along) != NULL)
-            case_read_fault(r, k->points.map, "check %s: %s is what the fit goes along; choose its "
-                            "values in `across`", k->name, a->along);
+            case_read_fault(r, k->points.map,
+                            "check %s: %s is what the fit goes along; choose its "
+                            "values in `across`",
+                            k->name, a->along);
         if (k->expect.kind == EXPECT_TABLE && k->expect.by != NULL &&
             strcmp(k->expect.by, a->along) == 0)
             case_read_fault(r, k->expect.node, "check %s: one fit along %s has one expectation",
@@ -134,9 +138,10 @@ static void use_check(struct case_reader *r, const struct grid *g, const struct 
         use_expect(r, g, k, p);
     }
     if (taken == 0)
-        case_read_fault(r, k->node, "check %s: applies to no point of tier %s; say `tiers: [...]` "
-                        "in the check, or `%s: off` in the tier", k->name,
-                        case_tier_name((enum tier)(t - r->c->tier)), k->name);
+        case_read_fault(r, k->node,
+                        "check %s: applies to no point of tier %s; say `tiers: [...]` "
+                        "in the check, or `%s: off` in the tier",
+                        k->name, case_tier_name((enum tier)(t - r->c->tier)), k->name);
 }
 
 static void use_seeds(struct case_reader *r, const struct grid *g, const struct case_tier *t) {

@@ -9,9 +9,12 @@
 enum { MAX_POINTS = 4096, MAX_SAMPLES = 100000, MAX_SEEDS = 100000 };
 
 static const struct schema_field tier_fields[] = {
-    {"parameters", SCHEMA_MAP, false, 0, 0, NULL}, {"sweep", SCHEMA_MAP, false, 0, 0, NULL},
-    {"samples", SCHEMA_ANY, false, 0, 0, NULL},    {"particle_samples", SCHEMA_ANY, false, 0, 0, NULL},
-    {"start", SCHEMA_MAP, false, 0, 0, NULL},      {"seeds", SCHEMA_MAP, false, 0, 0, NULL},
+    {"parameters", SCHEMA_MAP, false, 0, 0, NULL},
+    {"sweep", SCHEMA_MAP, false, 0, 0, NULL},
+    {"samples", SCHEMA_ANY, false, 0, 0, NULL},
+    {"particle_samples", SCHEMA_ANY, false, 0, 0, NULL},
+    {"start", SCHEMA_MAP, false, 0, 0, NULL},
+    {"seeds", SCHEMA_MAP, false, 0, 0, NULL},
     {"limit_s", SCHEMA_REAL, false, 0.01, 1e7, NULL},
     {"expect_s", SCHEMA_REAL, false, 0.001, 1e6, NULL},
     {"checks", SCHEMA_MAP, false, 0, 0, NULL},
@@ -117,9 +120,8 @@ static void read_parameters(struct case_reader *r, const struct yaml_node *over,
                 continue;
             if (level == 1 && has(swept[0], n->key))
                 continue; /* stands in the case's place, below */
-            const struct yaml_node *list = level == 0 && has(swept[1], n->key)
-                                               ? yaml_get(swept[1], n->key)
-                                               : n;
+            const struct yaml_node *list =
+                level == 0 && has(swept[1], n->key) ? yaml_get(swept[1], n->key) : n;
             if (list->kind == YAML_LIST && list->count > 0)
                 axis[t->axis_count++] = (struct case_axis){n->key, list};
         }
@@ -198,8 +200,9 @@ static void read_samples(struct case_reader *r, const struct yaml_node *n,
 
 static void read_seed_rule(struct case_reader *r, const struct yaml_node *n,
                            struct case_seed_rule *out) {
-    static const struct schema_field field[] = {{"points", SCHEMA_MAP, false, 0, 0, NULL},
-                                                {"count", SCHEMA_INTEGER, true, 1, MAX_SEEDS, NULL}};
+    static const struct schema_field field[] = {
+        {"points", SCHEMA_MAP, false, 0, 0, NULL},
+        {"count", SCHEMA_INTEGER, true, 1, MAX_SEEDS, NULL}};
     struct fault ignored = FAULT_NONE;
     long long count = 0;
     if (!case_read_fields(r, n, "rule for seeds", field, 2))

@@ -32,10 +32,11 @@ static enum status check_builds(struct review *v) {
     enum status status = folder_solver_keys(v->folder, &v->arena, &key, &count, v->fault);
     if (status != STATUS_OK || count < 2)
         return status;
-    return fault_set(v->fault, STATUS_BAD_INPUT,
-                     "%s: holds results of %zu different solver builds (%.8s, %.8s, ...): run again "
-                     "with one solver, or remove the others with `bedcheck clean --stale %s`",
-                     v->o->out, count, key[0], key[1], v->o->out);
+    return fault_set(
+        v->fault, STATUS_BAD_INPUT,
+        "%s: holds results of %zu different solver builds (%.8s, %.8s, ...): run again "
+        "with one solver, or remove the others with `bedcheck clean --stale %s`",
+        v->o->out, count, key[0], key[1], v->o->out);
 }
 
 static enum status choose_cases(struct review *v) {
@@ -59,12 +60,11 @@ static enum status choose_cases(struct review *v) {
     enum status status = case_tier_find(r->tier, &request.tier, v->fault);
     if (status == STATUS_OK)
         status = selection_make(&request, &v->selection, v->fault);
-    return status != STATUS_OK
-               ? status
-               : plan_make(v->selection->order, v->selection->count,
-                           (const struct case_file *const *)v->selection->all,
-                           v->selection->all_count, request.tier, r->seed_offset, &v->plan,
-                           v->fault);
+    return status != STATUS_OK ? status
+                               : plan_make(v->selection->order, v->selection->count,
+                                           (const struct case_file *const *)v->selection->all,
+                                           v->selection->all_count, request.tier, r->seed_offset,
+                                           &v->plan, v->fault);
 }
 
 /* Every run must be there, made from what the cases say now. */
@@ -88,7 +88,8 @@ static enum status inspect(struct review *v) {
         return STATUS_OK;
     return fault_set(v->fault, STATUS_NOT_FOUND,
                      "%s: %zu of %zu runs are missing or were made otherwise (the first: %s); use "
-                     "`bedcheck run`", v->o->out, missing, v->plan->run_count, first);
+                     "`bedcheck run`",
+                     v->o->out, missing, v->plan->run_count, first);
 }
 
 static enum status review(struct review *v, bool page, int *code) {

@@ -74,8 +74,7 @@ static void show_expect(FILE *out, const struct case_expect *e) {
         if (e->uncertainty > 0)
             fprintf(out, " +- %g", e->uncertainty);
     } else if (e->kind == EXPECT_PREDICTION) {
-        fprintf(out, "%s (%s)", e->prediction.prediction->name,
-                e->prediction.prediction->source);
+        fprintf(out, "%s (%s)", e->prediction.prediction->name, e->prediction.prediction->source);
     } else {
         fprintf(out, "by %s: ", e->by);
         for (size_t i = 0; i < e->count; i++) {
@@ -133,7 +132,8 @@ int command_show(const struct command_options *o, const struct console *c) {
     }
     for (size_t i = 0; i < s->count; i++) {
         const struct case_file *f = s->order[i].file;
-        fprintf(c->out, "%s%s: %s\n  file:     %s\n  source:   %s\n  model:    %s\n  question: %s\n",
+        fprintf(c->out,
+                "%s%s: %s\n  file:     %s\n  source:   %s\n  model:    %s\n  question: %s\n",
                 i == 0 ? "" : "\n", f->name, f->title, f->path, f->source, f->model, f->question);
         for (enum tier t = 0; t < TIER_COUNT; t++) {
             if (f->tier[t].present && (!o->tier_given || o->tier == t))

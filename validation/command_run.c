@@ -23,9 +23,9 @@ struct work {
     struct outcome *outcome; /* outcome[0 .. plan->run_count-1] */
     struct execute_options execute;
     struct desk *desk;
-    struct earlier earlier;  /* cases to run again, with --failed */
+    struct earlier earlier; /* cases to run again, with --failed */
     double begun_s;
-    enum status judging;     /* trouble while judging between runs */
+    enum status judging; /* trouble while judging between runs */
     struct fault *fault;
 };
 
@@ -71,8 +71,7 @@ static enum status choose_cases(struct work *w) {
 }
 
 static enum status find_solver(struct work *w) {
-    enum status status =
-        key_find_program(w->o->solver, w->o->path_list, &w->solver, w->fault);
+    enum status status = key_find_program(w->o->solver, w->o->path_list, &w->solver, w->fault);
     return status == STATUS_OK ? digest_file(w->solver, &w->solver_key, w->fault) : status;
 }
 
@@ -143,8 +142,8 @@ static int tell_plan(const struct work *w) {
     struct estimate e = estimate(w);
     double jobs = (double)(w->o->jobs < e.runs ? w->o->jobs : e.runs);
     fprintf(out, "%zu runs: %zu reused, %zu to make; about %.1f min with %zu jobs, %.1f MB\n",
-            e.runs, e.reused, e.runs - e.reused, e.seconds / 60 / (jobs > 0 ? jobs : 1),
-            w->o->jobs, e.bytes / 1e6);
+            e.runs, e.reused, e.runs - e.reused, e.seconds / 60 / (jobs > 0 ? jobs : 1), w->o->jobs,
+            e.bytes / 1e6);
     return 0;
 }
 
@@ -171,8 +170,8 @@ static void show_progress(void *context) {
     }
     double pace = expected_done > 0 ? taken / expected_done : 1;
     fprintf(w->console->errors, "\r\033[K%zu/%zu runs, %zu running, about %.1f min left, %.0f s",
-            done, w->plan->run_count, running,
-            pace * expected_left / (double)w->o->jobs / 60, now_s() - w->begun_s);
+            done, w->plan->run_count, running, pace * expected_left / (double)w->o->jobs / 60,
+            now_s() - w->begun_s);
     fflush(w->console->errors);
 }
 
@@ -245,7 +244,8 @@ static void tell_interrupted(const struct work *w) {
         complete += w->outcome[i].state == RUN_DONE || w->outcome[i].state == RUN_REUSED;
     fprintf(w->console->errors,
             "bedcheck: %zu of %zu runs are complete and kept in %s; the same command goes on from "
-            "there\n", complete, w->plan->run_count, w->o->out);
+            "there\n",
+            complete, w->plan->run_count, w->o->out);
 }
 
 static int run_plan(struct work *w) {

@@ -196,10 +196,12 @@ static void tell_last(const struct desk *d, const struct report *r, bool page) {
     FILE *out = d->console->out;
     if (r->modified)
         fprintf(out, "MODIFIED (%s) ", r->modification);
-    fprintf(out, "%s: %zu checks: %zu pass, %zu fail, %zu inconclusive; %zu cases skipped; %s: "
-            "%s/%s\n", word[report_verdict(r)], n.pass + n.fail + n.inconclusive, n.pass, n.fail,
-            n.inconclusive, n.skipped, page ? "report" : "results",
-            folder_path(d->execute->folder), page ? "report/index.html" : "results.json");
+    fprintf(out,
+            "%s: %zu checks: %zu pass, %zu fail, %zu inconclusive; %zu cases skipped; %s: "
+            "%s/%s\n",
+            word[report_verdict(r)], n.pass + n.fail + n.inconclusive, n.pass, n.fail,
+            n.inconclusive, n.skipped, page ? "report" : "results", folder_path(d->execute->folder),
+            page ? "report/index.html" : "results.json");
 }
 
 static int exit_code_of(const struct report *r) {
@@ -207,8 +209,8 @@ static int exit_code_of(const struct report *r) {
     return n.fail > 0 ? 1 : n.inconclusive > 0 || n.pass == 0 ? 3 : 0;
 }
 
-enum status desk_file(struct desk *d, const struct folder_record *record, bool page,
-                      int *exit_code, struct fault *fault) {
+enum status desk_file(struct desk *d, const struct folder_record *record, bool page, int *exit_code,
+                      struct fault *fault) {
     struct assemble_case *cases = calloc(d->plan->case_count + 1, sizeof *cases);
     struct assembled *a = NULL;
     if (cases == NULL)
@@ -219,7 +221,7 @@ enum status desk_file(struct desk *d, const struct folder_record *record, bool p
             .measured = d->measured[i],
             .rows = d->rows[i],
             .not_run = d->rows[i] == NULL ? "not run: stopped at the first failure (-x)" : NULL};
-    struct assemble_input in = {record,  cases,     d->plan->case_count,
+    struct assemble_input in = {record,  cases,      d->plan->case_count,
                                 d->plan, d->outcome, d->execute->folder};
     enum status status = assemble_report(&in, &a, fault);
     if (status == STATUS_OK)

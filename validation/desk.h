@@ -23,7 +23,7 @@ enum status desk_judge(struct desk *d, enum verdict *worst, struct fault *fault)
 
 /* Write results.json, junit.xml, summary.md and, with `page`, report/index.html;
  * print the last line; *exit_code says 0, 1 or 3. */
-enum status desk_file(struct desk *d, const struct folder_record *record, bool page,
-                      int *exit_code, struct fault *fault);
+enum status desk_file(struct desk *d, const struct folder_record *record, bool page, int *exit_code,
+                      struct fault *fault);
 
 #endif

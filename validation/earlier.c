@@ -8,8 +8,7 @@
 
 enum { MAX_RESULTS_BYTES = 64 << 20 };
 
-static enum status add_case(struct earlier *e, const struct yaml_node *check,
-                            struct fault *fault) {
+static enum status add_case(struct earlier *e, const struct yaml_node *check, struct fault *fault) {
     const struct yaml_node *name = check->kind == YAML_MAP ? yaml_get(check, "case") : NULL;
     const struct yaml_node *verdict = check->kind == YAML_MAP ? yaml_get(check, "verdict") : NULL;
     if (name == NULL || verdict == NULL || name->kind != YAML_SCALAR ||
@@ -64,15 +63,16 @@ enum status earlier_read(const struct command_options *o, struct earlier *out,
     *out = (struct earlier){0};
     struct folder *f = NULL;
     char *path = file_join(o->out, "results.json");
-    enum status status = path == NULL ? fault_set(fault, STATUS_NO_MEMORY, "--failed: out of memory")
-                                      : folder_open(o->out, false, &f, fault);
+    enum status status = path == NULL
+                             ? fault_set(fault, STATUS_NO_MEMORY, "--failed: out of memory")
+                             : folder_open(o->out, false, &f, fault);
     if (status == STATUS_OK)
         status = read_tier(o, f, out, fault);
     if (status == STATUS_OK)
         status = read_results(path, out, fault);
     if (status == STATUS_OK && out->count == 0)
-        status = fault_set(fault, STATUS_NOT_FOUND,
-                           "nothing selected: every check in %s passed", o->out);
+        status = fault_set(fault, STATUS_NOT_FOUND, "nothing selected: every check in %s passed",
+                           o->out);
     folder_close(f);
     free(path);
     return status;

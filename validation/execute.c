@@ -224,8 +224,7 @@ static enum status consider(struct executor *x, size_t index, struct fault *faul
     enum status status = execute_inspect(run, x->o, out, fault);
     if (status != STATUS_OK)
         return status;
-    bool blocked = run->start != NULL &&
-                   x->outcome[run->start->index].state == RUN_FAILED;
+    bool blocked = run->start != NULL && x->outcome[run->start->index].state == RUN_FAILED;
     if (out->state == RUN_REUSED || blocked) {
         struct arena a = {0};
         status = write_run_file(run, x->o, &a, fault);

@@ -28,11 +28,11 @@ struct execute_options {
     const char *const *setting;      /* "name=value", setting[0 .. setting_count-1] */
     size_t setting_count;
     size_t jobs;
-    double limit_s;                  /* of every run; 0: as its case says */
+    double limit_s; /* of every run; 0: as its case says */
     char *const *environment;
     /* After each change; run is an index of plan->run.  False: start no more. */
     bool (*finished)(void *context, size_t run);
-    void (*tick)(void *context);     /* now and then, for a progress line */
+    void (*tick)(void *context); /* now and then, for a progress line */
     void *context;
 };
 

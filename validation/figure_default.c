@@ -16,6 +16,7 @@ enum { COLOURS = 6 };
 /* One setting of the parameters other than the one drawn along. */
 struct branch {
     const char *label;
+    const char *quantity; /* what is drawn: "settling.speed / settling-own-law-published" */
     size_t count;
     double *x, *measured, *expected, *residual, *error, *tolerance; /* [0 .. count-1] */
 };
@@ -50,9 +51,9 @@ static const char *name_branch(const struct figure_input *in, const struct measu
             continue;
         const struct case_parameter *v = &p->point->parameter[t->parameter_count + i];
         const char *text = case_value_text(a, v->value);
-        name = text == NULL ? NULL
-                            : arena_text(a, "%s%s%s %s", name, *name == '\0' ? "" : ", ", v->name,
-                                         text);
+        name = text == NULL
+                   ? NULL
+                   : arena_text(a, "%s%s%s %s", name, *name == '\0' ? "" : ", ", v->name, text);
     }
     return name;
 }
@@ -96,6 +97,7 @@ static enum status collect(const struct figure_input *in, const struct case_chec
         if (!make_room(b, in->row_count, a))
             return no_memory(fault);
         const struct report_row *r = &in->row[i];
+        b->quantity = r->observable;
         b->x[b->count] = measured_parameter(in->row_point[i], along);
         b->measured[b->count] = r->measured;
         b->expected[b->count] = r->expected;
@@ -153,15 +155,17 @@ static enum status draw_check(const struct figure_input *in, const struct case_c
         rest[lower++] = series("", SERIES_POINTS, (int)i, b, b->residual, b->error);
         lower += add_margins(b, check->comparison, (int)i, out->arena, &rest[lower]);
     }
-    panel[0] = (struct report_panel){.y_label = label_axis(check->observable, check->unit,
-                                                           out->arena),
-                                     .series_count = upper, .series = top};
-    panel[1] = (struct report_panel){.y_label = "measured - expected", .series_count = lower,
-                                     .series = rest};
+    panel[0] =
+        (struct report_panel){.y_label = label_axis(list[0].quantity, check->unit, out->arena),
+                              .series_count = upper,
+                              .series = top};
+    panel[1] = (struct report_panel){
+        .y_label = "measured - expected", .series_count = lower, .series = rest};
     struct report_figure f = {
         .name = arena_text(out->arena, "check-%zu", number),
         .title = check->name,
-        .caption = arena_text(out->arena, "Points: measured, with standard uncertainty; dashed "
+        .caption = arena_text(out->arena,
+                              "Points: measured, with standard uncertainty; dashed "
                               "above: expected; dashed below: the margin (%s).",
                               case_comparison_name(check->comparison)),
         .alt = arena_text(out->arena, "%s measured and expected over %s, and their difference",
@@ -200,8 +204,8 @@ static enum status draw_overview(const struct figure_input *in, struct figure_ou
         return STATUS_OK;
     s[0] = series("(measured - expected)/margin", SERIES_POINTS, 0, &b, b.residual, b.error);
     size_t count = 1 + add_margins(&b, COMPARE_WITHIN, -1, out->arena, &s[1]);
-    *panel = (struct report_panel){.y_label = "(measured - expected)/margin",
-                                   .series_count = count, .series = s};
+    *panel = (struct report_panel){
+        .y_label = "(measured - expected)/margin", .series_count = count, .series = s};
     struct report_figure f = {
         .name = "overview",
         .title = "All checks, in units of their margin",

@@ -31,10 +31,10 @@ const char *folder_path(const struct folder *f);
 
 /* DIR/bedcheck.yaml: enough to judge the folder again. */
 struct folder_record {
-    struct arena arena;             /* of a record that was read */
+    struct arena arena; /* of a record that was read */
     const char *cases_folder, *tier, *started;
-    const char *solver;             /* path, as it was resolved */
-    const char *solver_key;         /* digest of its bytes */
+    const char *solver;     /* path, as it was resolved */
+    const char *solver_key; /* digest of its bytes */
     long long seed_offset;
     size_t case_count, setting_count;
     const char *const *case_name;   /* selected cases */

@@ -48,7 +48,8 @@ static bool is_ours(const char *part, const char *name) {
     if (unfinished != NULL)
         *unfinished = '\0';
     if (strcmp(part, "report") == 0)
-        return strcmp(stem, "index.html") == 0 || ends_with(stem, ".png") || ends_with(stem, ".svg");
+        return strcmp(stem, "index.html") == 0 || ends_with(stem, ".png") ||
+               ends_with(stem, ".svg");
     if (*part == '\0')
         return strcmp(stem, "results.json") == 0 || strcmp(stem, "junit.xml") == 0 ||
                strcmp(stem, "summary.md") == 0 || strcmp(stem, "bedcheck.lock") == 0;

@@ -11,11 +11,15 @@
 enum { MAX_RECORD_BYTES = 1 << 20 };
 
 static const struct schema_field fields[] = {
-    {"format", SCHEMA_TEXT, true, 0, 0, NULL},     {"cases_folder", SCHEMA_TEXT, true, 0, 0, NULL},
-    {"tier", SCHEMA_TEXT, true, 0, 0, NULL},       {"started", SCHEMA_TEXT, true, 0, 0, NULL},
-    {"solver", SCHEMA_TEXT, true, 0, 0, NULL},     {"solver_key", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"format", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"cases_folder", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"tier", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"started", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"solver", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"solver_key", SCHEMA_TEXT, true, 0, 0, NULL},
     {"seed_offset", SCHEMA_INTEGER, true, 0, 1e15, NULL},
-    {"settings", SCHEMA_LIST, true, 0, 0, NULL},   {"cases", SCHEMA_LIST, true, 0, 0, NULL},
+    {"settings", SCHEMA_LIST, true, 0, 0, NULL},
+    {"cases", SCHEMA_LIST, true, 0, 0, NULL},
 };
 
 static const struct schema_field case_fields[] = {{"case", SCHEMA_TEXT, true, 0, 0, NULL},

@@ -69,8 +69,8 @@ static void say_interval(const struct judge_question *q, struct judge_answer *ou
     switch (q->comparison) {
     case COMPARE_WITHIN:
     case COMPARE_OUTSIDE:
-        snprintf(accepted, sizeof accepted, "%s %.6g +- %.3g",
-                 case_comparison_name(q->comparison), e, t);
+        snprintf(accepted, sizeof accepted, "%s %.6g +- %.3g", case_comparison_name(q->comparison),
+                 e, t);
         break;
     case COMPARE_AT_MOST:
         snprintf(accepted, sizeof accepted, "at or below %.6g", e + t);
@@ -165,7 +165,8 @@ static bool find_uncertainty(const struct judge_question *q, struct judge_answer
     if (!(sd > 0)) {
         say(out, VERDICT_INCONCLUSIVE,
             "%zu seeds agree to the last bit on %.6g: not independent, or without scatter "
-            "(then say `scatter: 0`)", q->count, out->measured);
+            "(then say `scatter: 0`)",
+            q->count, out->measured);
         return false;
     }
     *quantile = gsl_cdf_tdist_Pinv((1 + confidence) / 2, n - 1);
@@ -180,8 +181,8 @@ static void judge_mean(const struct judge_question *q, struct judge_answer *out)
     if (!find_uncertainty(q, out, &quantile))
         return;
     out->interval = quantile * hypot(out->uncertainty, out->expected_uncertainty);
-    enum verdict v = judge_interval(q->comparison, out->measured - out->expected, out->interval,
-                                    out->tolerance);
+    enum verdict v =
+        judge_interval(q->comparison, out->measured - out->expected, out->interval, out->tolerance);
     say_interval(q, out, v);
 }
 

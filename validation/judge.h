@@ -33,13 +33,13 @@ struct judge_question {
     enum comparison comparison;
     enum check_kind kind;
     struct case_amount margin, scatter;
-    size_t count;                   /* samples asked for */
-    const double *measured;         /* measured[0 .. count-1]; NaN: missing */
-    const double *expected;         /* expected[0 .. count-1] */
-    double expected_uncertainty;    /* standard uncertainty of the expectation itself */
-    bool fitted;                    /* one sample, the result of a fit */
-    double fit_uncertainty;         /* its standard uncertainty; NaN: unknown */
-    const char *missing;            /* why a sample is NaN, or NULL */
+    size_t count;                /* samples asked for */
+    const double *measured;      /* measured[0 .. count-1]; NaN: missing */
+    const double *expected;      /* expected[0 .. count-1] */
+    double expected_uncertainty; /* standard uncertainty of the expectation itself */
+    bool fitted;                 /* one sample, the result of a fit */
+    double fit_uncertainty;      /* its standard uncertainty; NaN: unknown */
+    const char *missing;         /* why a sample is NaN, or NULL */
 };
 
 enum { JUDGE_REASON_SIZE = 320 };

@@ -52,23 +52,22 @@ enum status key_write(const char *path, const struct key_record *r, struct fault
     fputs("failure: ", out);
     write_quoted(out, r->failure);
     fputc('\n', out);
-    enum status status = fclose(out) == 0 ? file_write(path, text, length, fault)
-                                          : fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory",
-                                                      path);
+    enum status status = fclose(out) == 0
+                             ? file_write(path, text, length, fault)
+                             : fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path);
     free(text);
     return status;
 }
 
 static bool is_digest(const char *text) {
-    return strlen(text) == DIGEST_SIZE - 1 &&
-           strspn(text, "0123456789abcdef") == DIGEST_SIZE - 1;
+    return strlen(text) == DIGEST_SIZE - 1 && strspn(text, "0123456789abcdef") == DIGEST_SIZE - 1;
 }
 
 enum status key_read(const char *path, struct key_record *out, struct fault *fault) {
     static const struct schema_field field[] = {
-        {"format", SCHEMA_TEXT, true, 0, 0, NULL},      {"key", SCHEMA_TEXT, true, 0, 0, NULL},
-        {"solver", SCHEMA_TEXT, true, 0, 0, NULL},      {"seconds", SCHEMA_REAL, true, 0, 1e12, NULL},
-        {"bytes", SCHEMA_REAL, true, 0, 1e18, NULL},    {"failure", SCHEMA_TEXT, true, 0, 0, NULL}};
+        {"format", SCHEMA_TEXT, true, 0, 0, NULL},   {"key", SCHEMA_TEXT, true, 0, 0, NULL},
+        {"solver", SCHEMA_TEXT, true, 0, 0, NULL},   {"seconds", SCHEMA_REAL, true, 0, 1e12, NULL},
+        {"bytes", SCHEMA_REAL, true, 0, 1e18, NULL}, {"failure", SCHEMA_TEXT, true, 0, 0, NULL}};
     struct yaml_document *d = NULL;
     enum status status = yaml_load(path, MAX_RECORD_BYTES, &d, fault);
     if (status != STATUS_OK)
@@ -77,8 +76,8 @@ enum status key_read(const char *path, struct key_record *out, struct fault *fau
     status = schema_check(root, "key", field, sizeof field / sizeof *field, fault);
     if (status == STATUS_OK && strcmp(yaml_get(root, "format")->text, "bedcheck-key 1") != 0)
         status = yaml_fault(root, fault, "format: not a key of this version");
-    if (status == STATUS_OK && (!is_digest(yaml_get(root, "key")->text) ||
-                                !is_digest(yaml_get(root, "solver")->text)))
+    if (status == STATUS_OK &&
+        (!is_digest(yaml_get(root, "key")->text) || !is_digest(yaml_get(root, "solver")->text)))
         status = yaml_fault(root, fault, "key, solver: not 64 hex digits");
     if (status == STATUS_OK) {
         memcpy(out->key, yaml_get(root, "key")->text, DIGEST_SIZE);
@@ -121,6 +120,7 @@ enum status key_find_program(const char *command, const char *path_list, char **
     if (strchr(command, ' ') != NULL)
         return fault_set(fault, STATUS_NOT_FOUND,
                          "solver '%s': no such program; it must be one program without arguments: "
-                         "put a longer command into a script", command);
+                         "put a longer command into a script",
+                         command);
     return fault_set(fault, STATUS_NOT_FOUND, "solver '%s': no such program", command);
 }

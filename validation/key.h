@@ -16,11 +16,11 @@
 #include <stdbool.h>
 
 struct key_parts {
-    const char *meaning;            /* of the run file: its text without comments */
+    const char *meaning; /* of the run file: its text without comments */
     long long seed;
-    const char *start;              /* digest of the start file, or NULL */
-    const char *solver;             /* digest of the solver program */
-    const char *const *settings;    /* settings[0 .. setting_count-1]: "name=value", as given */
+    const char *start;           /* digest of the start file, or NULL */
+    const char *solver;          /* digest of the solver program */
+    const char *const *settings; /* settings[0 .. setting_count-1]: "name=value", as given */
     size_t setting_count;
 };
 

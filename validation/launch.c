@@ -14,8 +14,8 @@ struct child {
     pid_t pid; /* 0: free place */
     size_t tag;
     double begun_s, limit_s;
-    double ended_s;  /* when SIGTERM was sent; NAN: not yet */
-    bool killed;     /* SIGKILL was sent */
+    double ended_s; /* when SIGTERM was sent; NAN: not yet */
+    bool killed;    /* SIGKILL was sent */
 };
 
 struct launcher {
@@ -23,7 +23,7 @@ struct launcher {
     sigset_t taken, before;   /* signals that launch_wait takes; the mask as it was */
     struct sigaction child_before;
     size_t jobs;
-    struct child child[];     /* child[0 .. jobs-1] */
+    struct child child[]; /* child[0 .. jobs-1] */
 };
 
 static double now_s(void) {
@@ -83,9 +83,8 @@ static int set_up_signals(posix_spawnattr_t *attributes, const sigset_t *mask) {
     if (error == 0)
         error = posix_spawnattr_setpgroup(attributes, 0);
     if (error == 0)
-        error = posix_spawnattr_setflags(attributes, POSIX_SPAWN_SETPGROUP |
-                                                         POSIX_SPAWN_SETSIGMASK |
-                                                         POSIX_SPAWN_SETSIGDEF);
+        error = posix_spawnattr_setflags(
+            attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     return error;
 }
 
@@ -180,8 +179,8 @@ static int wait_for_signal(const struct launcher *l, double patience_s) {
     return sigtimedwait(&l->taken, NULL, &t);
 }
 
-enum status launch_wait(struct launcher *l, double patience_s, struct launch_result *out,
-                        bool *got, struct fault *fault) {
+enum status launch_wait(struct launcher *l, double patience_s, struct launch_result *out, bool *got,
+                        struct fault *fault) {
     double until = now_s() + patience_s;
     for (;;) {
         *got = look(l, out);

@@ -19,13 +19,13 @@
 enum launch_end { LAUNCH_EXITED, LAUNCH_KILLED, LAUNCH_TIMED_OUT };
 
 struct launch_result {
-    size_t tag;           /* as given to launch_start */
+    size_t tag; /* as given to launch_start */
     enum launch_end end;
-    int code;             /* exit code, or the signal's number */
-    double seconds;       /* wall time */
+    int code;       /* exit code, or the signal's number */
+    double seconds; /* wall time */
 };
 
-struct launcher;          /* opaque */
+struct launcher; /* opaque */
 
 /* Room for `jobs` processes at a time. `environment` is passed on to them. */
 enum status launch_create(size_t jobs, char *const *environment, struct launcher **out,
@@ -42,7 +42,7 @@ enum status launch_start(struct launcher *l, char *const *argv, const char *log_
 
 /* Wait at most patience_s for a process to end.  *got says whether one did.
  * STATUS_INTERRUPTED after SIGINT, SIGTERM or SIGHUP. */
-enum status launch_wait(struct launcher *l, double patience_s, struct launch_result *out,
-                        bool *got, struct fault *fault);
+enum status launch_wait(struct launcher *l, double patience_s, struct launch_result *out, bool *got,
+                        struct fault *fault);
 
 #endif

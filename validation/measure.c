@@ -151,9 +151,8 @@ enum status measure_case(const struct plan_case *plan, const struct measure_sour
         return fault_set(fault, STATUS_NO_MEMORY, "measure: out of memory");
     m->plan = plan;
     m->point = arena_take(&m->arena, plan->point_count, sizeof *m->point);
-    enum status status = m->point == NULL
-                             ? fault_set(fault, STATUS_NO_MEMORY, "measure: out of memory")
-                             : STATUS_OK;
+    enum status status =
+        m->point == NULL ? fault_set(fault, STATUS_NO_MEMORY, "measure: out of memory") : STATUS_OK;
     for (; status == STATUS_OK && m->point_count < plan->point_count; m->point_count++)
         status = measure_point(plan, &plan->point[m->point_count], source, m,
                                &m->point[m->point_count], fault);
@@ -181,8 +180,8 @@ void measured_case_free(struct measured_case *m) {
 
 /* -- for figures and fits --------------------------------------------------------- */
 
-size_t measured_mean(const struct measured_point *p, size_t observable, size_t output,
-                     double *mean, double *error) {
+size_t measured_mean(const struct measured_point *p, size_t observable, size_t output, double *mean,
+                     double *error) {
     size_t count = 0;
     double sum = 0, squares = 0;
     for (size_t i = 0; i < p->run_count; i++) {

@@ -105,8 +105,8 @@ static enum status find_start(struct planner *pl, const struct place *from, stru
         return yaml_fault(start->node, pl->fault, "start: no case %s", start->case_name);
     const struct case_tier *t = &file->tier[pl->plan->tier];
     if (!t->present)
-        return yaml_fault(start->node, pl->fault, "start: case %s has no tier %s",
-                          start->case_name, tier);
+        return yaml_fault(start->node, pl->fault, "start: case %s has no tier %s", start->case_name,
+                          tier);
     enum status status = check_start_names(pl, start, t);
     for (size_t i = 0; status == STATUS_OK && i < t->point_count; i++) {
         status = fill_place(pl, file, i, out);
@@ -141,8 +141,7 @@ static enum status name_run(struct planner *pl, const struct place *at, struct p
 
 static enum status describe_run(struct planner *pl, const struct place *at, struct plan_run *run) {
     struct arena *a = &pl->plan->arena;
-    const char *start =
-        run->start == NULL ? NULL : arena_text(a, "../h5/%s.h5", run->start->name);
+    const char *start = run->start == NULL ? NULL : arena_text(a, "../h5/%s.h5", run->start->name);
     struct plan_text_input in = {at->file, at->tier, at->point, at->parameter, at->count, start};
     run->case_name = at->file->name;
     run->point = at->point;

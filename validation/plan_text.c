@@ -6,7 +6,8 @@
 
 /* A plain scalar that every YAML reader takes as it stands. */
 static bool is_plain(const struct yaml_node *n) {
-    static const char safe[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-/";
+    static const char safe[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-/";
     return !n->quoted && *n->text != '\0' && strspn(n->text, safe) == strlen(n->text);
 }
 

@@ -10,7 +10,7 @@ struct plan_text_input {
     const char *point;
     const struct case_parameter *parameter; /* parameter[0 .. count-1] */
     size_t count;
-    const char *start_file;                 /* relative to DIR/runs, or NULL */
+    const char *start_file; /* relative to DIR/runs, or NULL */
 };
 
 /* The run file; with the origin of each parameter as a comment, or without any

@@ -47,8 +47,7 @@ static const char *repeat_point(struct clerk *k, const struct measured_point *p)
     for (size_t i = 0; i < p->run_count && all != NULL; i++) {
         const struct plan_run *run = p->run[i].run;
         const char *result = arena_text(a, "%s.h5", run->name);
-        const char *line =
-            result == NULL ? NULL : execute_command_line(run, k->o, result, a);
+        const char *line = result == NULL ? NULL : execute_command_line(run, k->o, result, a);
         if (line == NULL)
             return NULL;
         all = arena_text(a, "%s%s%s", all, separate, line);
@@ -58,10 +57,9 @@ static const char *repeat_point(struct clerk *k, const struct measured_point *p)
 }
 
 static const char *repeat_case(struct clerk *k) {
-    const char *text = arena_text(&k->rows->arena, "bedcheck run %s --tier %s --out again",
-                                  k->m->plan->file->name,
-                                  case_tier_name((enum tier)(k->m->plan->tier -
-                                                             k->m->plan->file->tier)));
+    const char *text =
+        arena_text(&k->rows->arena, "bedcheck run %s --tier %s --out again", k->m->plan->file->name,
+                   case_tier_name((enum tier)(k->m->plan->tier - k->m->plan->file->tier)));
     for (size_t i = 0; text != NULL && i < k->o->setting_count; i++)
         text = arena_text(&k->rows->arena, "%s --set %s", text, k->o->setting[i]);
     return text;
@@ -97,8 +95,7 @@ static enum status begin_row(struct clerk *k, const struct case_check *check, co
                                .kind = case_kind_name(check->kind),
                                .because = check->because};
     if (check->per.prediction != NULL)
-        row->observable =
-            arena_text(a, "%s / %s", check->observable, check->per.prediction->name);
+        row->observable = arena_text(a, "%s / %s", check->observable, check->per.prediction->name);
     return row->observable == NULL ? no_memory(k) : STATUS_OK;
 }
 

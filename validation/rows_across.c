@@ -33,8 +33,7 @@ static const char *name_group(const struct measured_case *m, const struct case_a
     const struct case_tier *t = m->plan->tier;
     const char *name = NULL;
     for (size_t i = 0; i < t->axis_count; i++) {
-        const struct case_parameter *p =
-            &m->point[first].point->parameter[t->parameter_count + i];
+        const struct case_parameter *p = &m->point[first].point->parameter[t->parameter_count + i];
         if (strcmp(p->name, a->along) == 0)
             continue;
         const char *value = case_value_text(arena, p->value);
@@ -92,9 +91,8 @@ enum status rows_group_fit(const struct measured_case *m, size_t check, size_t f
     double value[ACROSS_MAX_OUTPUTS], uncertainty[ACROSS_MAX_OUTPUTS];
     size_t count = 0;
     bool complete = true;
-    *out = (struct rows_group){.name = name_group(m, a, first, arena),
-                               .value = NAN,
-                               .uncertainty = NAN};
+    *out = (struct rows_group){
+        .name = name_group(m, a, first, arena), .value = NAN, .uncertainty = NAN};
     if (point == NULL || out->name == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "fit: out of memory");
     for (size_t p = first; p < m->point_count; p++) {

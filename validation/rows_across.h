@@ -9,9 +9,9 @@
 #include "validation/measure.h"
 
 struct rows_group {
-    const char *name;    /* "darcy=published", or "single" */
+    const char *name; /* "darcy=published", or "single" */
     double value, uncertainty, expected, expected_uncertainty;
-    const char *reason;  /* why one of them is NaN, or NULL */
+    const char *reason; /* why one of them is NaN, or NULL */
 };
 
 /* Is point q in the group of point p? */

@@ -53,9 +53,9 @@ static enum status scan(struct arena *a, const char *folder, const char *inside,
         else if (stat(file, &about) == 0 && S_ISDIR(about.st_mode) && depth < MAX_DEPTH)
             status = scan(a, folder, name, depth + 1, out, fault);
         else if (yaml && !case_name_is_safe(name))
-            status = fault_set(fault, STATUS_BAD_INPUT,
-                               "%s: not a name of a case: lower-case letters, digits, - and _",
-                               file);
+            status =
+                fault_set(fault, STATUS_BAD_INPUT,
+                          "%s: not a name of a case: lower-case letters, digits, - and _", file);
         else if (yaml)
             status = add_name(a, out, name, fault);
     }
@@ -80,8 +80,8 @@ static void choose(const struct selection_request *r, struct names *list, struct
         if (hits > 0)
             continue;
         const char *near = schema_nearest(r->pattern[p], list->name, list->count);
-        fault_add(fault, STATUS_NOT_FOUND, "%s: no such case in %s%s%s%s", r->pattern[p],
-                  r->folder, near == NULL ? "" : "; did you mean ", near == NULL ? "" : near,
+        fault_add(fault, STATUS_NOT_FOUND, "%s: no such case in %s%s%s%s", r->pattern[p], r->folder,
+                  near == NULL ? "" : "; did you mean ", near == NULL ? "" : near,
                   near == NULL ? "" : "?");
     }
     size_t kept = 0;
@@ -175,8 +175,7 @@ static enum status load_starts(struct selection *s, const struct selection_reque
             if (start->case_name == NULL || find_loaded(s, start->case_name) != NULL)
                 continue;
             if (load(s, r->folder, start->case_name, fault) == NULL) {
-                yaml_fault(start->node, fault, "start: case %s cannot be loaded",
-                           start->case_name);
+                yaml_fault(start->node, fault, "start: case %s cannot be loaded", start->case_name);
                 return fault->status;
             }
         }

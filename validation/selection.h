@@ -10,20 +10,20 @@
 #include "validation/plan.h"
 
 struct selection_request {
-    const char *folder;               /* of case files */
+    const char *folder; /* of case files */
     size_t pattern_count, tag_count, skip_count;
-    const char *const *pattern;       /* none: every case */
-    const char *const *tag;           /* a case has one of them; none: no matter */
-    const char *const *skip;          /* "CASE=reason" */
-    bool any_tier;                    /* `list`: leave none out for its tier */
+    const char *const *pattern; /* none: every case */
+    const char *const *tag;     /* a case has one of them; none: no matter */
+    const char *const *skip;    /* "CASE=reason" */
+    bool any_tier;              /* `list`: leave none out for its tier */
     enum tier tier;
 };
 
 struct selection {
     struct arena arena;
     size_t count, all_count;
-    struct plan_order *order;         /* order[0 .. count-1], sorted by name */
-    struct case_file **all;           /* owned: those selected and those they start from */
+    struct plan_order *order; /* order[0 .. count-1], sorted by name */
+    struct case_file **all;   /* owned: those selected and those they start from */
 };
 
 enum status selection_make(const struct selection_request *r, struct selection **out,

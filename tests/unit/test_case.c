@@ -142,9 +142,11 @@ static const struct {
     {"observable: fall.speed", "observable: fal.speed", "did you mean fall"},
     {"observable: fall.speed", "observable: fall", "must be OBSERVABLE.OUTPUT"},
     {"observable: fall.speed", "observable: fall.sped", "did you mean speed"},
-    {"points: {start: random}\n", "points: {strat: random}\n", "strat: no such parameter of this case"},
+    {"points: {start: random}\n", "points: {strat: random}\n",
+     "strat: no such parameter of this case"},
     {"points: {start: random}\n", "points: {start: cold}\n", "no point of tier smoke"},
-    {"points: {start: random}\n", "points: {start: [random, cold]}\n", "cold: no point of any tier"},
+    {"points: {start: random}\n", "points: {start: [random, cold]}\n",
+     "cold: no point of any tier"},
     {"58: 0.02, 64.50", "58: 0.02, 66", "check overlap: no entry for height_l = 64.5"},
     {"58: 0.02,", "58: 0.02, 71: 0.1,", "71: no point of any tier has this value"},
     {"58: 0.02,", "58: 0.02, 58.0: 0.1,", "58.0: the same value as 58"},
@@ -177,7 +179,8 @@ static const struct {
     {"model: fake\n", "model: fake\nstart: {case: ../../etc/passwd}\n", "is no name of a case"},
     {"model: fake\n", "model: fake\nfigures: [{recipe: no-such-figure}]\n", "no such figure"},
     {"grains: 137", "grains: {a: 1}", "must be a value or a list of values"},
-    {"expect: {value: 1.2, uncertainty: 0.01}", "expect: {prediction: no-such}", "no such prediction"},
+    {"expect: {value: 1.2, uncertainty: 0.01}", "expect: {prediction: no-such}",
+     "no such prediction"},
     {"expect: {value: 1.2, uncertainty: 0.01}", "expect: {value: 1.2}", "uncertainty: missing"},
     {"expect: {value: 1.2, uncertainty: 0.01}", "expect: {vale: 1.2}", "must be a number, {value"},
     {"expect: {value: 1.2, uncertainty: 0.01}", "expect: 1.2.3", "is not a number"},
@@ -212,8 +215,8 @@ END_TEST
 
 START_TEST(names_and_values_are_compared_as_meant) {
     ck_assert(case_name_is_safe("graingas/verification-halo"));
-    static const char *const bad[] = {"",    "/a",  "a/", "a//b", "../a", "a/../b", "a b",
-                                      "A",   "-a",  "a/-b", "a.b", "a\n",  "a*"};
+    static const char *const bad[] = {"",  "/a", "a/",   "a//b", "../a", "a/../b", "a b",
+                                      "A", "-a", "a/-b", "a.b",  "a\n",  "a*"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         ck_assert_msg(!case_name_is_safe(bad[i]), "%s", bad[i]);
     ck_assert(case_value_equal("64", "64.0"));

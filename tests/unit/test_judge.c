@@ -1,4 +1,5 @@
-/* test_judge.c -- validation/judge.h: each comparison passes right data and fails planted faults. */
+/* test_judge.c -- validation/judge.h: each comparison passes right data and fails planted faults.
+ */
 #include "tests/unit/unit.h"
 #include "validation/judge.h"
 
@@ -68,8 +69,8 @@ START_TEST(an_interval_passes_fails_or_stays_open) {
         {COMPARE_AT_LEAST, -0.1, 0.2, 0.011, VERDICT_INCONCLUSIVE},
     };
     for (size_t i = 0; i < sizeof row / sizeof *row; i++)
-        ck_assert_msg(judge_interval(row[i].c, row[i].d, row[i].h, row[i].t) == row[i].v,
-                      "row %zu", i);
+        ck_assert_msg(judge_interval(row[i].c, row[i].d, row[i].h, row[i].t) == row[i].v, "row %zu",
+                      i);
 }
 END_TEST
 

@@ -39,8 +39,10 @@ END_TEST
 START_TEST(a_record_comes_back_as_it_was_written) {
     struct fault fault = FAULT_NONE;
     const char *folder = unit_folder(), *path = unit_path(folder, "a.key");
-    struct key_record in = {.seconds = 12.375, .bytes = 1234567,
-                            .failure = "crashed: \"signal\" 11\nsecond line"}, out;
+    struct key_record in = {.seconds = 12.375,
+                            .bytes = 1234567,
+                            .failure = "crashed: \"signal\" 11\nsecond line"},
+                      out;
     memset(in.key, 'a', 64);
     memset(in.solver, '7', 64);
     unit_ok(key_write(path, &in, &fault), &fault);
@@ -60,8 +62,9 @@ START_TEST(a_damaged_record_is_refused) {
     const char *folder = unit_folder(), *path = unit_path(folder, "a.key");
     ck_assert_int_eq(key_read(path, &out, &fault), STATUS_NOT_FOUND);
     static const char *const text[] = {
-        "", "key: 1\n", "format: bedcheck-key 1\nkey: zz\nsolver: zz\nseconds: 1\nbytes: 1\n"
-                        "failure: \"\"\n"};
+        "", "key: 1\n",
+        "format: bedcheck-key 1\nkey: zz\nsolver: zz\nseconds: 1\nbytes: 1\n"
+        "failure: \"\"\n"};
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         fault = FAULT_NONE;
         unit_write(path, text[i]);

@@ -55,8 +55,8 @@ static bool has_ended(pid_t pid) {
     snprintf(path, sizeof path, "/proc/%d/stat", (int)pid);
     for (int i = 0; i < 100; i++) {
         FILE *in = fopen(path, "r");
-        bool alive = in != NULL && fgets(line, sizeof line, in) != NULL &&
-                     strstr(line, ") Z") == NULL;
+        bool alive =
+            in != NULL && fgets(line, sizeof line, in) != NULL && strstr(line, ") Z") == NULL;
         if (in != NULL)
             fclose(in);
         if (!alive)
@@ -179,6 +179,7 @@ int main(void) {
                                   one_that_will_not_listen_is_killed,
                                   several_run_at_a_time_and_no_more,
                                   an_interrupt_is_told_and_children_do_not_outlive_the_launcher,
-                                  what_cannot_be_started_is_a_fault, NULL};
+                                  what_cannot_be_started_is_a_fault,
+                                  NULL};
     return unit_run("launch", tests);
 }

@@ -120,9 +120,10 @@ START_TEST(only_the_meaning_names_a_run) {
 }
 END_TEST
 
-static const char heir[] = "sweep: {height_l: [58, 64]}\nsamples: [3]\nseeds: {first: 1102, count: 2}\n"
-                           "start: {case: fake/steady, point: {start: random}}\n"
-                           "tiers: {smoke: {}}\n";
+static const char heir[] =
+    "sweep: {height_l: [58, 64]}\nsamples: [3]\nseeds: {first: 1102, count: 2}\n"
+    "start: {case: fake/steady, point: {start: random}}\n"
+    "tiers: {smoke: {}}\n";
 
 START_TEST(a_start_is_planned_first_and_shared) {
     struct fault fault;
@@ -175,10 +176,9 @@ START_TEST(a_start_that_does_not_fit_is_refused) {
 END_TEST
 
 int main(void) {
-    const TTest *const tests[] = {points_and_seeds_are_expanded_in_order,
-                                  a_run_file_is_read_back_with_every_value,
-                                  only_the_meaning_names_a_run,
-                                  a_start_is_planned_first_and_shared,
-                                  a_start_that_does_not_fit_is_refused, NULL};
+    const TTest *const tests[] = {
+        points_and_seeds_are_expanded_in_order, a_run_file_is_read_back_with_every_value,
+        only_the_meaning_names_a_run,           a_start_is_planned_first_and_shared,
+        a_start_that_does_not_fit_is_refused,   NULL};
     return unit_run("plan", tests);
 }
