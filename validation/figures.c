@@ -1,10 +1,12 @@
 #include "validation/figures.h"
 
+#include "validation/figure_recipes.h"
+
 #include <string.h>
 
 /* One line a figure recipe. */
 static const struct figure_recipe *const recipes[] = {
-    NULL, /* ends the list */
+    &figure_settling_curve, &figure_snapshot, NULL, /* ends the list */
 };
 
 const struct figure_recipe *const *figure_all(size_t *count) {
