@@ -280,7 +280,8 @@ static const char *const standard_out[] = {"bedcheck-out/smoke", "bedcheck-out/p
                                            "bedcheck-out/large"};
 
 static int perform(const struct command *command, struct line *l) {
-    struct console console = {.out = stdout, .errors = stderr, .live = isatty(2) == 1};
+    struct console console = {
+        .out = stdout, .errors = stderr, .live = isatty(2) == 1 && getenv("CI") == NULL};
     char *cases = find_beside("../../validation/cases"), *solver = find_solver();
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     struct command_options *o = &l->o;

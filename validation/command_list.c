@@ -95,7 +95,7 @@ static void show_check(FILE *out, const struct case_check *k) {
     show_amount(out, "margin", &k->margin);
     show_amount(out, "scatter", &k->scatter);
     fprintf(out, " [%s]\n", case_kind_name(k->kind));
-    fprintf(out, "        %s\n", k->because);
+    fprintf(out, "        %.*s\n", (int)strcspn(k->because, "\n"), k->because);
 }
 
 static void show_tier(FILE *out, const struct case_file *c, enum tier tier) {

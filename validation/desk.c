@@ -197,7 +197,7 @@ static void tell_last(const struct desk *d, const struct report *r, bool page) {
     if (r->modified)
         fprintf(out, "MODIFIED (%s) ", r->modification);
     fprintf(out,
-            "%s: %zu checks: %zu pass, %zu fail, %zu inconclusive; %zu cases skipped; %s: "
+            "%s: %zu checks: %zu pass, %zu fail, %zu inconclusive; %zu skipped; %s: "
             "%s/%s\n",
             word[report_verdict(r)], n.pass + n.fail + n.inconclusive, n.pass, n.fail,
             n.inconclusive, n.skipped, page ? "report" : "results", folder_path(d->execute->folder),

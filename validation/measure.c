@@ -98,7 +98,7 @@ static enum status sample_checks(const struct bench *b, struct fault *fault) {
 
 static enum status measure_view(struct bench *b, struct fault *fault) {
     const struct case_file *c = b->plan->file;
-    enum status status = STATUS_OK;
+    enum status status = run_view_check_asked(b->view, fault);
     for (size_t i = 0; status == STATUS_OK && i < c->observable_count; i++) {
         const struct case_observable *o = &c->observable[i];
         status = o->recipe->measure(b->view, o->setting, &b->run->observable[i], fault);

@@ -375,3 +375,56 @@ enum status run_view_array(struct run_view *v, const char *name, const double **
     *count = k->count;
     return STATUS_OK;
 }
+
+/* -- what was asked for ----------------------------------------------------- */
+
+/* A solver hits a time to half a step; nearer to another sample it is not that frame. */
+static enum status check_times(const struct run_view *v, const char *name, const double *time,
+                               const double *asked, size_t count, struct fault *fault) {
+    for (size_t f = 0; f < count; f++) {
+        double before = f > 0 ? asked[f] - asked[f - 1] : INFINITY;
+        double after = f + 1 < count ? asked[f + 1] - asked[f] : INFINITY;
+        double gap = count > 1 ? fmin(before, after) : asked[0] > 0 ? asked[0] : INFINITY;
+        if (!(fabs(time[f] - asked[f]) < gap / 2))
+            return fault_set(fault, STATUS_BAD_INPUT,
+                             "%s: %s: frame %zu is of time %.9g, not of %.9g as asked for",
+                             v->result_path, name, f, time[f], asked[f]);
+    }
+    return STATUS_OK;
+}
+
+static enum status check_asked_series(struct run_view *v, const char *name, const char *time_path,
+                                      struct fault *fault) {
+    bool particles = !strncmp(name, "particles/", 10);
+    size_t asked = particles ? v->run.particle_sample_count : v->run.sample_count, count;
+    size_t dims[H5_MAX_RANK];
+    double *time = NULL;
+    int rank;
+    enum status status = h5_dims(v->result, time_path, &rank, dims, fault);
+    if (status)
+        return status;
+    if (rank != 1 || dims[0] != asked)
+        return fault_set(fault, STATUS_BAD_INPUT, "%s: %s: %zu frames, but %zu were asked for",
+                         v->result_path, name, rank == 1 ? dims[0] : 0, asked);
+    status = h5_read(v->result, time_path, asked, &time, &count, fault);
+    if (!status)
+        status = check_times(v, name, time, particles ? v->run.particle_samples : v->run.samples,
+                             asked, fault);
+    free(time);
+    return status;
+}
+
+enum status run_view_check_asked(struct run_view *v, struct fault *fault) {
+    enum status status = STATUS_OK;
+    for (size_t i = 0; !status && i < v->run.dataset_count; i++) {
+        const char *name = v->run.datasets[i];
+        char time[256];
+        snprintf(time, sizeof time, "%s/time", name);
+        if (!h5_has(v->result, name))
+            status = fault_set(fault, STATUS_BAD_INPUT, "%s: %s: was asked for and is missing",
+                               v->result_path, name);
+        else if (h5_has(v->result, time))
+            status = check_asked_series(v, name, time, fault);
+    }
+    return status;
+}

@@ -21,6 +21,10 @@ enum status run_view_open(const char *run_path, const char *result_path, struct 
                           struct fault *fault);
 void run_view_close(struct run_view *v); /* NULL is allowed */
 
+/* Is every dataset there that the run file asks for, and has every series one
+ * frame for each of the times asked for?  The fault names the first that has not. */
+enum status run_view_check_asked(struct run_view *v, struct fault *fault);
+
 /* A parameter: the run file's, else what the result file says the solver used
  * (attributes of /parameters).  A choice is compared with run_view_parameter_is. */
 enum status run_view_parameter(struct run_view *v, const char *name, double *out,

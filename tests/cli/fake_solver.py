@@ -4,8 +4,8 @@
 
 Parameters: value (of largest_overlap), noise (its scatter over seeds), slope and
 width_l (value + slope width_l^2), from_start (adds the value of the start file),
-and mode: good, crash, hang, stubborn, numerical, refuse, nan, shape, missing, text,
-empty, nothing, or odd (exit code 9).
+and mode: good, crash, hang, numerical, refuse, nan, shape, missing, short (a frame too
+few), text, empty, nothing, or odd (exit code 9).
 """
 
 import os
@@ -39,9 +39,7 @@ def misbehave(mode):
     print(f"fake solver: mode {mode}", file=sys.stderr, flush=True)
     if mode == "crash":
         os.kill(os.getpid(), signal.SIGSEGV)
-    elif mode in ("hang", "stubborn"):
-        if mode == "stubborn":
-            signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    elif mode == "hang":
         time.sleep(600)
     elif mode == "numerical":
         print("fake solver: step 17: not converged", file=sys.stderr)
@@ -67,6 +65,8 @@ def write_series(file, name, when, values, unit):
 def write_result(out, keys, seed, value):
     when = times(keys["samples"])
     mode = keys.get("mode", "good")
+    if mode == "short":
+        when = when[:-1]
     values = numpy.full(len(when), value)
     if mode == "nan":
         values[-1] = numpy.nan

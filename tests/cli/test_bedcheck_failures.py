@@ -27,6 +27,7 @@ def good_and(mode):
         ("nan", "the result cannot be used"),
         ("shape", "the result cannot be used"),
         ("missing", "sweeps_max"),
+        ("short", "the result cannot be used"),
         ("text", "the result cannot be used"),
     ],
 )

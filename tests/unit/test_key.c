@@ -63,8 +63,8 @@ START_TEST(a_damaged_record_is_refused) {
     ck_assert_int_eq(key_read(path, &out, &fault), STATUS_NOT_FOUND);
     static const char *const text[] = {
         "", "key: 1\n",
-        "format: bedcheck-key 1\nkey: zz\nsolver: zz\nseconds: 1\nbytes: 1\n"
-        "failure: \"\"\n"};
+        ("format: bedcheck-key 1\nkey: zz\nsolver: zz\nseconds: 1\nbytes: 1\n"
+         "failure: \"\"\n")};
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         fault = FAULT_NONE;
         unit_write(path, text[i]);
