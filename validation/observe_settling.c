@@ -175,7 +175,7 @@ const struct recipe recipe_settling = {
                 {"from_tau", "tau", "samples before this are not used", 0, 0, 1e6},
                 {"every_tau", "tau", "only samples at multiples of this are used; 0: all", 0, 0,
                  1e6},
-                {"ended", "1", "settling has ended below this share of the largest speed", 0.85, 0,
+                {"ended", "1", "settling has ended below this share of the largest speed", 0.5, 0,
                  1},
                 {"min_samples", "1", "samples needed", 1, 1, 1000}},
     .output = {{"speed", "U0", "mean speed of the plateau, positive downwards"},
