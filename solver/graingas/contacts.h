@@ -7,7 +7,10 @@
  * step: then it conserves energy.  Approach speeds up to a threshold (by
  * default g dt/Fr, what gravity adds in one step) count as rest: in a quiet bed
  * every grain touches three or four others, so all collisions would be elastic
- * and would never end.
+ * and would never end.  Two amendments keep contacts from creeping together:
+ * the threshold fades with overlap and is gone at CONTACTS_REST_OVERLAP, and
+ * walls know no threshold, the floor sending a grain back at half of what
+ * gravity adds in a step at the least (docs/theory.md, section 4).
  *
  * The list is swept up and down in turn.  A pair is looked at again only when
  * one of its grains has changed its velocity since: a pair that did not
