@@ -96,7 +96,7 @@ struct case_prediction {
     struct case_binding input[PREDICTION_MAX_INPUTS];
 };
 
-enum expect_kind { EXPECT_NUMBER, EXPECT_PREDICTION, EXPECT_TABLE };
+enum expect_kind { EXPECT_NUMBER, EXPECT_PREDICTION, EXPECT_TABLE, EXPECT_CURVE };
 
 struct case_expect {
     enum expect_kind kind;
@@ -105,6 +105,8 @@ struct case_expect {
     const char *by;                    /* EXPECT_TABLE: a parameter, and one entry a value */
     size_t count;
     const struct case_entry *entry;
+    struct case_number along; /* EXPECT_CURVE: y over x, straight between the count points */
+    const double *x, *y;      /* x increases */
     const struct yaml_node *node;
 };
 
@@ -203,6 +205,10 @@ const struct case_expect *case_expect_find(const struct case_expect *e,
 
 /* A value of a parameter as text: "64", "published", "[0.1;0.2]". */
 const char *case_value_text(struct arena *a, const struct yaml_node *value);
+
+/* Expected value of a curve at x: straight between its points, and beyond its ends by
+ * a quarter of the end's interval at the most; NaN farther out. */
+double case_curve_at(const struct case_expect *e, double x);
 
 /* How many seeds a point gets; 0 when no rule matches it. */
 size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count);

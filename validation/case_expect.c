@@ -2,6 +2,7 @@
 #include "validation/case_read.h"
 
 #include <errno.h>
+#include <gsl/gsl_interp.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -94,6 +95,44 @@ static void read_table(struct case_reader *r, const struct yaml_node *n, struct 
     }
 }
 
+static void read_curve(struct case_reader *r, const struct yaml_node *n, struct case_expect *out) {
+    static const struct schema_field field[] = {{"along", SCHEMA_TEXT, true, 0, 0, NULL},
+                                                {"values", SCHEMA_MAP, true, 0, 0, NULL}};
+    out->kind = EXPECT_CURVE;
+    if (!case_read_fields(r, n, "curve of expectations", field, 2))
+        return;
+    const struct yaml_node *values = yaml_get(n, "values"), *along = yaml_get(n, "along");
+    double *x = case_read_take(r, 2 * values->count + 1, sizeof *x), *y = x + values->count;
+    if (x == NULL)
+        return;
+    if (case_read_number(r, along, &out->along) && out->along.across)
+        case_read_fault(r, along, "along: %s belongs to the whole sweep", along->text);
+    if (values->count < 2)
+        case_read_fault(r, values, "values: a curve needs two points at the least");
+    for (size_t i = 0; i < values->count; i++) {
+        struct fault found = FAULT_NONE;
+        char *end;
+        x[i] = strtod(values->child[i].key, &end);
+        if (*end != '\0' || !isfinite(x[i]) || (i > 0 && !(x[i] > x[i - 1])))
+            case_read_fault(r, &values->child[i], "%s: must be a number above the one before",
+                            values->child[i].key);
+        yaml_real(&values->child[i], &y[i], &found);
+        case_read_merge(r, &found);
+    }
+    out->x = x;
+    out->y = y;
+    out->count = values->count;
+}
+
+double case_curve_at(const struct case_expect *e, double x) {
+    size_t n = e->count, k = gsl_interp_bsearch(e->x, x, 0, n - 1);
+    double low = e->x[0] - 0.25 * (e->x[1] - e->x[0]);
+    double high = e->x[n - 1] + 0.25 * (e->x[n - 1] - e->x[n - 2]);
+    if (!(x >= low && x <= high))
+        return NAN;
+    return e->y[k] + (x - e->x[k]) * (e->y[k + 1] - e->y[k]) / (e->x[k + 1] - e->x[k]);
+}
+
 static void read_uncertain(struct case_reader *r, const struct yaml_node *n,
                            struct case_expect *out) {
     static const struct schema_field field[] = {{"value", SCHEMA_REAL, true, 0, 0, NULL},
@@ -112,6 +151,8 @@ void case_read_expect(struct case_reader *r, const struct yaml_node *n, struct c
         case_read_prediction(r, n, &out->prediction);
     } else if (n->kind == YAML_MAP && yaml_get(n, "by") != NULL) {
         read_table(r, n, out);
+    } else if (n->kind == YAML_MAP && yaml_get(n, "along") != NULL) {
+        read_curve(r, n, out);
     } else if (n->kind == YAML_MAP && yaml_get(n, "value") != NULL) {
         read_uncertain(r, n, out);
     } else if (n->kind == YAML_SCALAR) {
@@ -120,8 +161,8 @@ void case_read_expect(struct case_reader *r, const struct yaml_node *n, struct c
         case_read_merge(r, &found);
     } else {
         case_read_fault(r, n,
-                        "%s: must be a number, {value: , uncertainty: }, {prediction: , ...} "
-                        "or {by: , values: }",
+                        "%s: must be a number, {value: , uncertainty: }, {prediction: , ...}, "
+                        "{by: , values: } or {along: , values: }",
                         n->key);
     }
 }

@@ -75,6 +75,10 @@ static void show_expect(FILE *out, const struct case_expect *e) {
             fprintf(out, " +- %g", e->uncertainty);
     } else if (e->kind == EXPECT_PREDICTION) {
         fprintf(out, "%s (%s)", e->prediction.prediction->name, e->prediction.prediction->source);
+    } else if (e->kind == EXPECT_CURVE) {
+        fputs("along", out);
+        for (size_t i = 0; i < e->count; i++)
+            fprintf(out, "%s %g: %g", i == 0 ? "" : ",", e->x[i], e->y[i]);
     } else {
         fprintf(out, "by %s: ", e->by);
         for (size_t i = 0; i < e->count; i++) {

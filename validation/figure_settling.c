@@ -4,8 +4,7 @@
  * laws and Eq. 20.  Middle: the speed-up factor, measured over the own law of
  * that run.  Below: measured over Eq. 20, less 1.  A table gives the numbers
  * with the seeds' scatter.  The curves are drawn with the predictions that the
- * checks use.  `of:` names two settling observables: the first is drawn for the
- * published law, the second for the corrected one.
+ * checks use.  `of:` names the settling observable.
  *
  * Source:     MFM, Section III and Fig. 4.
  * Leaves out: points without a plateau.
@@ -69,7 +68,7 @@ static double own_law(const struct drawing *d, const char *darcy, double rho) {
 }
 
 static void take_point(struct drawing *d, struct branch *b, const struct measured_point *p) {
-    size_t observable = d->in->observable[strcmp(b->darcy, "corrected") == 0];
+    size_t observable = d->in->observable[0];
     const struct recipe *r = d->in->file->observable[observable].recipe;
     double rho, rho_error, speed, error;
     size_t used = measured_mean(p, observable, output_index(r, "speed"), &speed, &error);
@@ -275,10 +274,9 @@ static enum status tabulate(struct drawing *d, struct figure_output *out, struct
 static enum status build(const struct figure_input *in, struct figure_output *out,
                          struct fault *fault) {
     struct drawing d = {.in = in, .arena = out->arena};
-    for (size_t i = 0; i < 2; i++)
-        if (strcmp(in->file->observable[in->observable[i]].recipe->name, "settling") != 0)
-            return fault_set(fault, STATUS_BAD_INPUT,
-                             "settling-curve draws observables of the recipe settling");
+    if (strcmp(in->file->observable[in->observable[0]].recipe->name, "settling") != 0)
+        return fault_set(fault, STATUS_BAD_INPUT,
+                         "settling-curve draws an observable of the recipe settling");
     d.law[0].own = prediction_find("settling-own-law-published");
     d.law[1].own = prediction_find("settling-own-law-corrected");
     d.law[LAWS].own = d.eq20 = prediction_find("settling-eq20");
@@ -295,6 +293,6 @@ static enum status build(const struct figure_input *in, struct figure_output *ou
 const struct figure_recipe figure_settling_curve = {
     .name = "settling-curve",
     .title = "Settling speed over solid fraction, with both own laws and Eq. 20",
-    .observables = 2,
+    .observables = 1,
     .build = build,
 };

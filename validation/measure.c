@@ -58,6 +58,14 @@ static enum status predict(const struct bench *b, const struct case_prediction *
     return STATUS_OK;
 }
 
+static double expect_along(const struct bench *b, const struct case_expect *e,
+                           const char **reason) {
+    double expected = case_curve_at(e, value_of(b->run, &e->along, reason));
+    if (isnan(expected) && *reason == NULL)
+        *reason = "beyond the ends of the expected curve";
+    return expected;
+}
+
 static enum status sample_check(const struct bench *b, const struct case_check *k,
                                 struct measured_sample *s, struct fault *fault) {
     const struct case_expect *e =
@@ -77,6 +85,8 @@ static enum status sample_check(const struct bench *b, const struct case_check *
     }
     if (status == STATUS_OK && e->kind == EXPECT_PREDICTION)
         status = predict(b, &e->prediction, &s->expected, &s->reason, fault);
+    else if (status == STATUS_OK && e->kind == EXPECT_CURVE)
+        s->expected = expect_along(b, e, &s->reason);
     else if (e->kind == EXPECT_NUMBER)
         s->expected = e->value;
     s->expected_uncertainty = e->uncertainty;

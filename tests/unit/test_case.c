@@ -111,11 +111,32 @@ START_TEST(points_run_through_the_sweep_the_last_axis_fastest) {
 }
 END_TEST
 
+START_TEST(a_curve_is_straight_between_its_points_and_ends_soon_after) {
+    struct fault fault;
+    struct case_file *c = load(
+        "expect: {by: height_l, values: {58: 0.02, 64.50: 0.031}}",
+        "expect: {along: fall.solid_fraction, values: {0.21: 1.3, 0.37: 1.1, 0.45: 0.9}}", &fault);
+    const struct case_expect *e = &c->tier[TIER_SMOKE].check[0].expect;
+    ck_assert_int_eq(e->kind, EXPECT_CURVE);
+    ck_assert_double_eq_tol(case_curve_at(e, 0.29), 1.2, 1e-14);
+    ck_assert_double_eq_tol(case_curve_at(e, 0.41), 1.0, 1e-14);
+    ck_assert_double_eq_tol(case_curve_at(e, 0.46), 0.875, 1e-14);
+    ck_assert_double_eq_tol(case_curve_at(e, 0.18), 1.3375, 1e-14);
+    ck_assert(isnan(case_curve_at(e, 0.4701)) && isnan(case_curve_at(e, 0.16)));
+    ck_assert(isnan(case_curve_at(e, NAN)));
+    case_free(c);
+}
+END_TEST
+
 /* What is replaced, by what, and what the fault must say. */
 static const struct {
     const char *from, *to, *says;
 } spoiled[] = {
     {"name: fake/steady", "name: fake/other", "1:7: name: fake/other, but the file must hold"},
+    {"{by: height_l, values: {58: 0.02, 64.50: 0.031}}",
+     "{along: fall.speed, values: {0.4: 1, 0.3: 2}}", "must be a number above the one before"},
+    {"{by: height_l, values: {58: 0.02, 64.50: 0.031}}",
+     "{along: fall.sped, values: {0.4: 1, 1: 2}}", "did you mean"},
     {"title: A title", "titel: A title", "2:1: titel: no such key in a case; did you mean 'title'"},
     {"question: does it?", "question: ''", "question: must not be empty"},
     {"model: fake", "model: ../fake", "no name of a model"},
@@ -234,6 +255,7 @@ int main(void) {
     tcase_set_timeout(group, 120);
     tcase_add_test(group, a_good_case_is_read_with_its_tiers);
     tcase_add_test(group, points_run_through_the_sweep_the_last_axis_fastest);
+    tcase_add_test(group, a_curve_is_straight_between_its_points_and_ends_soon_after);
     tcase_add_loop_test(group, every_fault_is_told_with_its_place, 0,
                         (int)(sizeof spoiled / sizeof *spoiled));
     tcase_add_test(group, several_faults_are_told_at_once_and_each_once);
