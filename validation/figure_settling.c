@@ -12,10 +12,11 @@
 #include "validation/figure_recipes.h"
 #include "validation/run_view.h"
 
+#include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <string.h>
 
-enum { BRANCHES = 4, LAWS = 2, CURVE_POINTS = 120, TABLE_COLUMNS = 8 };
+enum { MAX_SEEDS = 256, BRANCHES = 4, LAWS = 2, CURVE_POINTS = 120, TABLE_COLUMNS = 8 };
 
 /* One Darcy law with one initial state. */
 struct branch {
@@ -67,25 +68,36 @@ static double own_law(const struct drawing *d, const char *darcy, double rho) {
     return d->law[strcmp(darcy, "corrected") == 0].own->at(in);
 }
 
+/* Mean of x[0 .. count-1] and its standard error, 0 for a single value. */
+static void mean_of_seeds(const double *x, size_t count, double *mean, double *error) {
+    *mean = gsl_stats_mean(x, 1, count);
+    *error = count < 2 ? 0 : gsl_stats_sd_m(x, 1, count, *mean) / sqrt((double)count);
+}
+
+/* Ratios are taken seed by seed: speed and density of a seed go together. */
 static void take_point(struct drawing *d, struct branch *b, const struct measured_point *p) {
-    size_t observable = d->in->observable[0];
+    size_t observable = d->in->observable[0], used = 0;
     const struct recipe *r = d->in->file->observable[observable].recipe;
-    double rho, rho_error, speed, error;
-    size_t used = measured_mean(p, observable, output_index(r, "speed"), &speed, &error);
-    measured_mean(p, observable, output_index(r, "solid_fraction"), &rho, &rho_error);
-    if (used == 0 || !isfinite(speed) || !isfinite(rho))
+    size_t at_speed = output_index(r, "speed"), at_rho = output_index(r, "solid_fraction");
+    double rho[MAX_SEEDS], speed[MAX_SEEDS], factor[MAX_SEEDS], against[MAX_SEEDS], ignored;
+    for (size_t i = 0; i < p->run_count && used < MAX_SEEDS; i++) {
+        const double *value = p->run[i].usable ? p->run[i].observable[observable].value : NULL;
+        if (!value || !isfinite(value[at_speed]) || !isfinite(value[at_rho]))
+            continue;
+        rho[used] = value[at_rho];
+        speed[used] = value[at_speed];
+        factor[used] = speed[used] / own_law(d, b->darcy, rho[used]);
+        against[used] = speed[used] / d->eq20->at(&rho[used]) - 1;
+        used++;
+    }
+    if (used == 0)
         return;
-    double own = own_law(d, b->darcy, rho), eq20 = d->eq20->at(&rho);
     size_t k = b->count++;
-    error = isfinite(error) ? error : 0;
     b->point[k] = p;
-    b->rho[k] = rho;
-    b->speed[k] = speed;
-    b->speed_error[k] = error;
-    b->factor[k] = speed / own;
-    b->factor_error[k] = error / own;
-    b->against[k] = speed / eq20 - 1;
-    b->against_error[k] = error / eq20;
+    mean_of_seeds(rho, used, &b->rho[k], &ignored);
+    mean_of_seeds(speed, used, &b->speed[k], &b->speed_error[k]);
+    mean_of_seeds(factor, used, &b->factor[k], &b->factor_error[k]);
+    mean_of_seeds(against, used, &b->against[k], &b->against_error[k]);
 }
 
 static bool is_of(const struct measured_point *p, const char *name, const char *value,
@@ -230,16 +242,16 @@ static enum status draw(struct drawing *d, struct figure_output *out, struct fau
     return figure_add(out, &f, fault);
 }
 
-/* Relative standard deviation of a point's speeds over its seeds, from the error of their mean. */
+/* Relative standard deviation of v/own law over the seeds, from the error of its mean. */
 static const char *scatter_text(const struct branch *b, size_t k, struct arena *a) {
-    double scatter = b->speed_error[k] * sqrt((double)b->point[k]->run_count) / b->speed[k];
-    return b->speed_error[k] > 0 ? arena_text(a, "%.1f %%", 100 * scatter) : "-";
+    double scatter = b->factor_error[k] * sqrt((double)b->point[k]->run_count) / b->factor[k];
+    return scatter > 0 ? arena_text(a, "%.1f %%", 100 * scatter) : "-";
 }
 
 static enum status tabulate(struct drawing *d, struct figure_output *out, struct fault *fault) {
     static const char *const heading[TABLE_COLUMNS] = {
         "law",        "start",     "height (l)", "solid fraction",
-        "speed (U0)", "v/own law", "v/Eq. 20",   "scatter of seeds"};
+        "speed (U0)", "v/own law", "v/Eq. 20",   "seeds' scatter of v/own law"};
     size_t rows = 0, r = 0;
     for (size_t i = 0; i < BRANCHES; i++)
         rows += d->branch[i].count;
@@ -263,7 +275,8 @@ static enum status tabulate(struct drawing *d, struct figure_output *out, struct
         if (!cell[i])
             return no_memory(fault);
     struct report_table t = {.title = "Settling speeds",
-                             .caption = "Means over seeds; own law with its cut-off.",
+                             .caption =
+                                 "Means over seeds; own law with its cut-off, taken seed by seed.",
                              .columns = TABLE_COLUMNS,
                              .rows = rows,
                              .heading = heading,
