@@ -118,6 +118,17 @@ static enum status draw_velocities(struct grains *g, double speed, uint64_t seed
     return STATUS_OK;
 }
 
+static enum status check_inside(const struct grains *g, const struct graingas_parameters *p,
+                                struct fault *fault) {
+    for (size_t i = 0; i < g->count; i++)
+        if (!(g->x[i] >= 0 && g->x[i] <= p->width_l && g->y[i] >= 0 && g->y[i] <= p->height_l &&
+              isfinite(g->vx[i]) && isfinite(g->vy[i])))
+            return fault_set(fault, STATUS_BAD_INPUT,
+                             "start: grain %zu is at (%g, %g) l, outside the box of %d x %d l", i,
+                             g->x[i], g->y[i], p->width_l, p->height_l);
+    return STATUS_OK;
+}
+
 /* Elastic discs in a closed box for equilibrate_tau; velocities zero afterwards. */
 static enum status equilibrate(struct grains *g, const struct graingas_parameters *p, uint64_t seed,
                                double *collisions_per_grain, struct fault *fault) {
@@ -132,6 +143,11 @@ static enum status equilibrate(struct grains *g, const struct graingas_parameter
     long long steps = llround(p->equilibrate_tau / p->dt_tau);
     for (rule.step = 1; rule.step <= steps && fault->status == STATUS_OK; rule.step++) {
         push_free(g, p->dt_tau);
+        if (check_inside(g, p, fault) != STATUS_OK) {
+            fault_within(fault, "equilibrate_speed %g is too fast for steps of %g tau",
+                         p->equilibrate_speed, p->dt_tau);
+            break;
+        }
         if (contacts_find(&c, g, &rule, fault) == STATUS_OK)
             contacts_resolve(&c, g, &rule, fault);
     }
@@ -211,17 +227,6 @@ static enum status start_from_file(struct grains *g, const struct graingas_param
 }
 
 /* -- all of them ----------------------------------------------------------------- */
-
-static enum status check_inside(const struct grains *g, const struct graingas_parameters *p,
-                                struct fault *fault) {
-    for (size_t i = 0; i < g->count; i++)
-        if (!(g->x[i] >= 0 && g->x[i] <= p->width_l && g->y[i] >= 0 && g->y[i] <= p->height_l &&
-              isfinite(g->vx[i]) && isfinite(g->vy[i])))
-            return fault_set(fault, STATUS_BAD_INPUT,
-                             "grain %zu starts at (%g, %g) l, outside the box of %d x %d l", i,
-                             g->x[i], g->y[i], p->width_l, p->height_l);
-    return STATUS_OK;
-}
 
 /* Horizontal layers of alternating species between the floor and the bed's top. */
 static void colour_layers(struct grains *g, int layers) {

@@ -143,13 +143,16 @@ END_TEST
 START_TEST(what_cannot_be_run_is_refused_before_the_first_step) {
     const struct {
         const char *yaml, *says;
-    } bad[] = {{"dt_tau: 0.07\n", "beyond the drag's stability bound 0.0672"},
-               {"grains: 31500\n", "at most 0.80 can be placed"},
-               {"grains: 2\nstart: list\ngrain_x: [1.5]\n", "1 values where start: list has 2"},
-               {"grain_x: [1.5]\n", "used with start: list only"},
-               {"grains: 3\nmirror: true\n", "an even number of grains"},
-               {"flux_on_tau: 3\nflux_off_tau: 2\n", "is before flux_on_tau"},
-               {"start: from-file\n", "needs a start_file"}};
+    } bad[] = {
+        {"dt_tau: 0.07\n", "beyond the drag's stability bound 0.0672"},
+        {"grains: 31500\n", "at most 0.80 can be placed"},
+        {"grains: 2\nstart: list\ngrain_x: [1.5]\n", "1 values where start: list has 2"},
+        {"grain_x: [1.5]\n", "used with start: list only"},
+        {"grains: 3\nmirror: true\n", "an even number of grains"},
+        {"flux_on_tau: 3\nflux_off_tau: 2\n", "is before flux_on_tau"},
+        {"grains: 300\nwidth_l: 9\nheight_l: 10\nstart: equilibrated\nequilibrate_speed: 60\n",
+         "equilibrate_speed 60 is too fast for steps of 0.0125 tau: start: grain"},
+        {"start: from-file\n", "needs a start_file"}};
     for (size_t n = 0; n < sizeof bad / sizeof *bad; n++) {
         struct fault fault = fixture_refused(bad[n].yaml);
         unit_says(&fault, bad[n].says);
