@@ -30,8 +30,7 @@ static void notice_step(struct graingas *s) {
                  "dt_tau = %g is above half the drag's stability bound %.4g", p->dt_tau, bound);
 }
 
-/* Grains move in straight lines between samples of the force: they must be made
- * before the gas reads them. */
+/* The grains are made last: their start may need the box and its parameters. */
 static enum status graingas_create(void **state, const struct parameter_set *p,
                                    struct h5_reader *start, uint64_t seed, struct fault *fault) {
     *state = NULL;

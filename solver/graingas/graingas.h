@@ -26,7 +26,6 @@ struct graingas {
     double start_collisions;    /* of the equilibration, per grain */
     long long pressure_cycles;  /* since the start */
     double seconds[PART_COUNT]; /* CPU time by part */
-    long long seen_collisions;  /* at the last cost report */
     double *scratch;            /* room for 4 values a grain, for observe */
     char notice[160];
 };

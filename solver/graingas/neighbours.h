@@ -7,7 +7,7 @@
  * the sum of radii plus the skin are kept, each once, with the lower index
  * first.  The list is good until some grain has moved half a skin.
  *
- * Cost: a rebuild about 15 ns a grain, a test for it about 1 ns.
+ * Cost: O(grains) a rebuild; ci/bench shows the search as a whole.
  */
 #ifndef GRAINGAS_NEIGHBOURS_H
 #define GRAINGAS_NEIGHBOURS_H
