@@ -15,7 +15,7 @@
 
 #include "validation/run_view.h"
 
-enum { RECIPE_MAX_OUTPUTS = 12, RECIPE_MAX_SETTINGS = 8, RECIPE_MAX_CURVES = 6 };
+enum { RECIPE_MAX_OUTPUTS = 24, RECIPE_MAX_SETTINGS = 8, RECIPE_MAX_CURVES = 8 };
 
 struct recipe_output {
     const char *name, *unit, *doc;
