@@ -10,10 +10,12 @@ static const struct prediction *const PREDICTIONS[] = {
     &PREDICT_GAS[3],      &PREDICT_GAS[4],      &PREDICT_GAS[5],      &PREDICT_GAS[6],
     &PREDICT_GAS[7],      &PREDICT_GAS[8],      &PREDICT_GAS[9],      &PREDICT_GAS[10],
     &PREDICT_GAS[11],     &PREDICT_GAS[12],     &PREDICT_DISCS[0],    &PREDICT_DISCS[1],
-    &PREDICT_DISCS[2],
+    &PREDICT_DISCS[2],    &PREDICT_BED[0],      &PREDICT_BED[1],      &PREDICT_BED[2],
+    &PREDICT_BED[3],      &PREDICT_BED[4],      &PREDICT_BED[5],      &PREDICT_BED[6],
 };
 enum { PREDICTION_COUNT = sizeof PREDICTIONS / sizeof *PREDICTIONS };
-_Static_assert(PREDICTION_COUNT == PREDICT_SETTLING_COUNT + PREDICT_GAS_COUNT + PREDICT_DISCS_COUNT,
+_Static_assert(PREDICTION_COUNT == PREDICT_SETTLING_COUNT + PREDICT_GAS_COUNT +
+                                       PREDICT_DISCS_COUNT + PREDICT_BED_COUNT,
                "every prediction of every table stands in the list");
 
 const struct prediction *prediction_find(const char *name) {

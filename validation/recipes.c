@@ -5,11 +5,11 @@
 #include <string.h>
 
 static const struct recipe *const RECIPES[] = {
-    &recipe_settling,         &recipe_front,    &recipe_fluctuations,  &recipe_contacts,
-    &recipe_mode_decay,       &recipe_column,   &recipe_gas_invariant, &recipe_halo,
-    &recipe_uniform_fraction, &recipe_gas_work, &recipe_acceleration,  &recipe_free_fall,
-    &recipe_energy,           &recipe_mirror,   &recipe_pair,          &recipe_corner_hits,
-    &recipe_disc_pressure,
+    &recipe_settling,         &recipe_front,      &recipe_fluctuations,  &recipe_contacts,
+    &recipe_mode_decay,       &recipe_column,     &recipe_gas_invariant, &recipe_halo,
+    &recipe_uniform_fraction, &recipe_gas_work,   &recipe_acceleration,  &recipe_free_fall,
+    &recipe_energy,           &recipe_mirror,     &recipe_pair,          &recipe_corner_hits,
+    &recipe_disc_pressure,    &recipe_packed_bed, &recipe_bed_motion,    &recipe_pressure_drop,
 };
 
 const struct recipe *recipe_find(const char *name) {

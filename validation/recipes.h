@@ -21,5 +21,8 @@ extern const struct recipe recipe_mirror;           /* observe_mirror.c */
 extern const struct recipe recipe_pair;             /* observe_collision.c */
 extern const struct recipe recipe_corner_hits;      /* observe_collision.c */
 extern const struct recipe recipe_disc_pressure;    /* observe_discs.c */
+extern const struct recipe recipe_packed_bed;       /* observe_packed.c */
+extern const struct recipe recipe_bed_motion;       /* observe_bed.c */
+extern const struct recipe recipe_pressure_drop;    /* observe_drop.c */
 
 #endif
