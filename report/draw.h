@@ -1,4 +1,4 @@
-/* draw.h -- figures and grain pictures as bytes, drawn by gnuplot.
+/* draw.h -- figures and grain pictures as bytes: by gnuplot, and grains in time by ourselves.
  *
  * Figures are SVG to stand inline in a page: panels above each other with one
  * x axis, common margins, the key above all data.  A measured point is never
@@ -8,6 +8,10 @@
  * Grain pictures are palette PNG by gnuplot's gd terminal: discs have their
  * true radii and equal axes.  They are drawn at twice the size they are shown
  * at, and the browser's scaling smooths their edges.
+ *
+ * Sequences of the same grains are SVG files (side by side) and HTML pages with a player on a
+ * canvas (animations), both drawn from shapes, so that they stay sharp when zoomed. They have a
+ * light ground of their own.
  */
 #ifndef REPORT_DRAW_H
 #define REPORT_DRAW_H
@@ -37,5 +41,23 @@ struct drawing {
  * where the picture would be wider or higher than DRAW_MAX_PX. */
 enum status draw_picture(const struct report_picture *p, double px_per_l, struct drawing *out,
                          struct fault *fault);
+
+/* Of the grains of a sequence by kind, and of what is between them. */
+extern const char *const DRAW_KIND_COLOUR[2];
+extern const char DRAW_GROUND_COLOUR[];
+
+/* STATUS_BAD_INPUT names the grain or frame that cannot be drawn; no grains or frames is a fault.
+ */
+enum status draw_check_sequence(const struct report_sequence *s, struct fault *fault);
+
+/* All frames side by side, an SVG file.  On success sheet_free it; the same for those below. */
+enum status draw_sequence(const struct report_sequence *s, struct sheet *svg, struct fault *fault);
+
+/* The middle frame with a sign to start playing, an SVG file. */
+enum status draw_poster(const struct report_sequence *s, struct sheet *svg, struct fault *fault);
+
+/* A page that plays the frames, needing nothing else: about 5.4 bytes a grain and frame. */
+enum status draw_animation(const struct report_sequence *s, struct sheet *page,
+                           struct fault *fault);
 
 #endif

@@ -124,3 +124,27 @@ void escape_name(FILE *out, const char *text) {
             fprintf(out, "_%02X", *s);
     }
 }
+
+void escape_base64(FILE *out, const char *bytes, size_t length) {
+    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const unsigned char *b = (const unsigned char *)bytes;
+    for (size_t i = 0; i < length; i += 3) {
+        unsigned have = length - i < 3 ? (unsigned)(length - i) : 3;
+        unsigned word = (unsigned)b[i] << 16;
+        word |= have > 1 ? (unsigned)b[i + 1] << 8 : 0;
+        word |= have > 2 ? (unsigned)b[i + 2] : 0;
+        fputc(digit[word >> 18], out);
+        fputc(digit[word >> 12 & 63], out);
+        fputc(have > 1 ? digit[word >> 6 & 63] : '=', out);
+        fputc(have > 2 ? digit[word & 63] : '=', out);
+    }
+}
+
+void escape_uri(FILE *out, const char *text) {
+    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
+        if (*c > ' ' && *c < 127 && strchr("\"#%&'<>\\^`{|}", *c) == NULL)
+            fputc(*c, out);
+        else
+            fprintf(out, "%%%02X", *c);
+    }
+}

@@ -21,6 +21,12 @@ void escape_markdown(FILE *out, const char *text);
  * '/' becomes '.', any other byte _XX; different names stay different but for '/' and '.'. */
 void escape_name(FILE *out, const char *text);
 
+/* bytes[0 .. length-1] of any kind, for a data: address or a block of data. */
+void escape_base64(FILE *out, const char *bytes, size_t length);
+
+/* A text as the content of a data: address: printing characters without a meaning stay. */
+void escape_uri(FILE *out, const char *text);
+
 /* UTF-8 without control characters (a newline is one)? */
 bool escape_is_plain(const char *text);
 

@@ -1,4 +1,4 @@
-/* html_media.c -- pictures, figures and tables of a case. */
+/* html_media.c -- sequences, animations, pictures, figures and tables of a case. */
 #include "report/draw.h"
 #include "report/escape.h"
 #include "report/html.h"
@@ -7,31 +7,16 @@
 
 #include <stdlib.h>
 
-static void put_base64(FILE *out, const char *bytes, size_t length) {
-    static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const unsigned char *b = (const unsigned char *)bytes;
-    for (size_t i = 0; i < length; i += 3) {
-        unsigned have = length - i < 3 ? (unsigned)(length - i) : 3;
-        unsigned word = (unsigned)b[i] << 16;
-        word |= have > 1 ? (unsigned)b[i + 1] << 8 : 0;
-        word |= have > 2 ? (unsigned)b[i + 2] : 0;
-        fputc(digit[word >> 18], out);
-        fputc(digit[word >> 12 & 63], out);
-        fputc(have > 1 ? digit[word >> 6 & 63] : '=', out);
-        fputc(have > 2 ? digit[word & 63] : '=', out);
-    }
-}
-
 /* "CASE.NAME.png": pictures of several cases share one folder. */
-static enum status name_of_file(const struct report_case *c, const struct report_picture *picture,
+static enum status name_of_file(const struct report_case *c, const char *what, const char *ending,
                                 struct sheet *name, struct fault *fault) {
     enum status status = sheet_open(name, fault);
     if (status)
         return status;
     escape_name(name->out, c->name);
     fputc('.', name->out);
-    escape_name(name->out, picture->name);
-    fputs(".png", name->out);
+    escape_name(name->out, what);
+    fputs(ending, name->out);
     status = sheet_close(name, fault);
     if (status)
         sheet_free(name);
@@ -59,7 +44,7 @@ static void put_picture(struct page *p, const struct report_picture *picture,
     fprintf(p->out, "<a href=\"%s\"><img width=\"%d\" height=\"%d\" ", name, drawing->width_px / 2,
             drawing->height_px / 2);
     html_text(p, "alt=\"", picture->alt, "\" src=\"data:image/png;base64,");
-    put_base64(p->out, drawing->bytes, drawing->length);
+    escape_base64(p->out, drawing->bytes, drawing->length);
     html_text(p, "\"></a>\n<figcaption>", picture->caption, "");
     fprintf(p->out, " <a href=\"%s\">Full size</a></figcaption>\n</figure>\n", name);
 }
@@ -68,7 +53,7 @@ static enum status picture(struct page *p, const struct report_case *c,
                            const struct report_picture *picture, struct fault *fault) {
     struct sheet name = {0};
     struct drawing small = {0};
-    enum status status = name_of_file(c, picture, &name, fault);
+    enum status status = name_of_file(c, picture->name, ".png", &name, fault);
     if (status)
         return status;
     if ((status = save_full_size(p, picture, name.text, fault)))
@@ -78,6 +63,71 @@ static enum status picture(struct page *p, const struct report_case *c,
     put_picture(p, picture, &small, name.text);
 done:
     free(small.bytes);
+    sheet_free(&name);
+    return status;
+}
+
+static enum status save(struct page *p, const char *name, struct sheet *s, struct fault *fault) {
+    char *path = file_join(p->folder, name);
+    enum status status = path ? sheet_save(s, path, fault)
+                              : fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
+    free(path);
+    return status;
+}
+
+/* An SVG file as an image: of no cost to the page's tree, and as sharp as an element of it. */
+static void put_image(struct page *p, const char *alt, const struct sheet *svg) {
+    html_text(p, "<img alt=\"", alt, "\" src=\"data:image/svg+xml,");
+    escape_uri(p->out, svg->text);
+    fputs("\">", p->out);
+}
+
+static enum status sequence(struct page *p, const struct report_case *c,
+                            const struct report_sequence *s, struct fault *fault) {
+    struct sheet name = {0}, svg = {0};
+    enum status status = name_of_file(c, s->name, ".svg", &name, fault);
+    if (status)
+        return status;
+    if ((status = draw_sequence(s, &svg, fault)))
+        goto done;
+    if ((status = save(p, name.text, &svg, fault)))
+        goto done;
+    html_text(p, "<figure class=\"sequence\">\n<h3>", s->title, "</h3>\n");
+    html_text(p, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Figure: ",
+              s->title, "\">\n");
+    fprintf(p->out, "<a href=\"%s\">", name.text);
+    put_image(p, s->alt, &svg);
+    html_text(p, "</a></div>\n<figcaption>", s->caption, "");
+    fprintf(p->out, " <a href=\"%s\">As a file to zoom into</a></figcaption>\n</figure>\n",
+            name.text);
+done:
+    sheet_free(&svg);
+    sheet_free(&name);
+    return status;
+}
+
+/* The page with the player lies beside this one, which shows its middle frame. */
+static enum status animation(struct page *p, const struct report_case *c,
+                             const struct report_sequence *s, struct fault *fault) {
+    struct sheet name = {0}, player = {0}, poster = {0};
+    enum status status = name_of_file(c, s->name, ".html", &name, fault);
+    if (status)
+        return status;
+    if ((status = draw_animation(s, &player, fault)))
+        goto done;
+    if ((status = save(p, name.text, &player, fault)))
+        goto done;
+    if ((status = draw_poster(s, &poster, fault)))
+        goto done;
+    html_text(p, "<figure class=\"picture\">\n<h3>", s->title, "</h3>\n");
+    fprintf(p->out, "<a href=\"%s\">", name.text);
+    put_image(p, s->alt, &poster);
+    html_text(p, "</a>\n<figcaption>", s->caption, "");
+    fprintf(p->out, " <a href=\"%s\">Play (%.1f MB)</a></figcaption>\n</figure>\n", name.text,
+            (double)player.length / 1e6);
+done:
+    sheet_free(&poster);
+    sheet_free(&player);
     sheet_free(&name);
     return status;
 }
@@ -123,11 +173,16 @@ static void table(struct page *p, const struct report_table *t) {
 
 enum status html_media(struct page *p, const struct report_case *c, struct fault *fault) {
     enum status status = STATUS_OK;
-    if (c->picture_count > 0)
+    bool has_pictures = c->picture_count + c->animation_count > 0;
+    for (size_t i = 0; i < c->sequence_count && !status; i++)
+        status = sequence(p, c, &c->sequence[i], fault);
+    if (has_pictures)
         fprintf(p->out, "<div class=\"pictures\">\n");
+    for (size_t i = 0; i < c->animation_count && !status; i++)
+        status = animation(p, c, &c->animation[i], fault);
     for (size_t i = 0; i < c->picture_count && !status; i++)
         status = picture(p, c, &c->picture[i], fault);
-    if (c->picture_count > 0)
+    if (has_pictures)
         fprintf(p->out, "</div>\n");
     for (size_t i = 0; i < c->figure_count && !status; i++)
         status = figure(p, &c->figure[i], fault);

@@ -115,6 +115,8 @@ static const char style[] =
     "figcaption{max-width:52rem}\n"
     ".plot svg{display:block;width:100%;min-width:36rem;max-width:52rem;height:auto;"
     "border-radius:.6rem;background:#fff}\n"
+    ".sequence img{display:block;width:100%;min-width:36rem;height:auto;border-radius:.6rem;"
+    "background:#fff}\n"
     ".pictures{display:flex;flex-wrap:wrap;gap:0 2rem}\n"
     ".picture{flex:0 1 auto;max-width:100%;min-width:0}\n"
     ".picture img{display:block;max-width:100%;height:auto;border-radius:.6rem;background:#fff}\n"
@@ -129,7 +131,7 @@ static const char style[] =
     "body{max-width:none;padding:0;font-size:10pt}.skip,.back,summary{display:none}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}"
     "pre{white-space:pre-wrap;overflow-wrap:anywhere}.scroll{overflow:visible}"
-    ".plot svg{min-width:0}figure,.trouble,tr,h2,h3,h4{break-inside:avoid}"
+    ".plot svg,.sequence img{min-width:0}figure,.trouble,tr,h2,h3,h4{break-inside:avoid}"
     "h2,h3,h4{break-after:avoid}table{font-size:8pt}th,td{padding:.25rem .4rem}.rows tbody "
     "th{min-width:0;width:auto}"
     ".rows .reason{min-width:9rem;font-size:8pt}details{display:none}.margin{min-width:4rem}}\n";

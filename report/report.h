@@ -2,8 +2,9 @@
  *
  * validation/ fills these structs; report/ turns the same structs into
  * results.json (json_report.c), junit.xml (junit.c), summary.md (markdown.c)
- * and index.html (html.c, with figures drawn by gnuplot: figure.c, and grain
- * pictures: picture.c).  All text is borrowed from the caller and escaped here.
+ * and index.html (html.c, with figures drawn by gnuplot: figure.c, grain
+ * pictures: picture.c, time sequences: sequence.c, animations: animation.c).  All text is borrowed
+ * from the caller and escaped here.
  */
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H
@@ -72,6 +73,25 @@ struct report_picture {
     double shade_min, shade_max;  /* values at 0 and 1 */
 };
 
+struct report_frame {
+    double time;
+    const double *position; /* position[2*grain + axis], l; y upwards */
+};
+
+/* The same grains at several times, of two kinds: side by side (sequence.c), or moving
+ * (animation.c). */
+struct report_sequence {
+    const char *name, *title, *caption, *alt;
+    const char *time_unit;     /* "tau" */
+    const char *kind_label[2]; /* of the dark and of the light grains */
+    const char *ground_label;  /* of what is between them: "gas" */
+    double width, height;      /* of the box, l */
+    size_t count, frame_count;
+    const double *radius;             /* radius[0 .. count-1], l */
+    const unsigned char *kind;        /* kind[0 .. count-1]: 0 dark, 1 light */
+    const struct report_frame *frame; /* frame[0 .. frame_count-1]; times increase */
+};
+
 struct report_table {
     const char *title, *caption;
     size_t columns, rows;
@@ -83,11 +103,12 @@ struct report_case {
     const char *name, *title, *source, *question, *command;
     bool skipped;
     const char *skip_reason;
-    size_t row_count, figure_count, picture_count, table_count;
+    size_t row_count, figure_count, picture_count, table_count, sequence_count, animation_count;
     const struct report_row *row;
     const struct report_figure *figure;
     const struct report_picture *picture;
     const struct report_table *table;
+    const struct report_sequence *sequence, *animation;
 };
 
 struct report_fact {
@@ -120,8 +141,8 @@ const char *verdict_name(enum verdict v); /* "pass", "fail", "inconclusive" */
 enum status report_write_json(const struct report *r, const char *path, struct fault *fault);
 enum status report_write_junit(const struct report *r, const char *path, struct fault *fault);
 enum status report_write_markdown(const struct report *r, const char *path, struct fault *fault);
-/* folder/index.html, self-contained, and folder/CASE.NAME.png full-size pictures beside it
- * ('/' in the case's name becomes '.'). */
+/* folder/index.html, self-contained, and beside it pictures in full size, CASE.NAME.png, sequences,
+ * CASE.NAME.svg, and animations, CASE.NAME.html ('/' in the case's name becomes '.'). */
 enum status report_write_html(const struct report *r, const char *folder, struct fault *fault);
 
 #endif

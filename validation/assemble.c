@@ -43,25 +43,33 @@ static enum status say_missing(struct builder *b, const struct case_figure *f,
 
 static enum status build_figures(struct builder *b, const struct assemble_case *c,
                                  struct figure_output *out) {
+    const struct case_file *file = c->plan->file;
     struct figure_input in = {.data = c->measured,
-                              .file = c->plan->file,
+                              .file = file,
                               .row_count = c->rows->count,
                               .row = c->rows->row,
                               .row_point = c->rows->point,
                               .row_check = c->rows->check};
     enum status status = STATUS_OK;
-    for (size_t i = 0; status == STATUS_OK && i < c->plan->file->figure_count; i++) {
-        const struct case_figure *f = &c->plan->file->figure[i];
+    for (size_t i = 0; status == STATUS_OK && i < file->figure_count; i++) {
+        const struct case_figure *f = &file->figure[i];
+        struct measured_case shown;
         struct fault why = FAULT_NONE;
+        if (!f->in_tier[c->plan->tier - file->tier])
+            continue;
         in.wanted = f;
         in.observable = f->observable;
         in.observable_count = f->observable_count;
-        status = figure_find(f->recipe)->build(&in, out, &why);
+        in.data = &shown;
+        status = figure_select(c->measured, f, b->arena, &shown, &why);
+        if (status == STATUS_OK)
+            status = figure_find(f->recipe)->build(&in, out, &why);
         if (status == STATUS_NO_MEMORY)
             *b->fault = why;
         else if (status != STATUS_OK)
             status = say_missing(b, f, &why, out);
     }
+    in.data = c->measured;
     in.wanted = NULL;
     in.observable = NULL;
     in.observable_count = 0;
@@ -98,6 +106,10 @@ static enum status build_case(struct builder *b, const struct assemble_case *c,
     out->picture_count = f->picture_count;
     out->table = f->table;
     out->table_count = f->table_count;
+    out->sequence = f->sequence;
+    out->sequence_count = f->sequence_count;
+    out->animation = f->animation;
+    out->animation_count = f->animation_count;
     return status;
 }
 

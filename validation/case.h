@@ -136,10 +136,23 @@ struct case_check {
     const struct yaml_node *node;
 };
 
+enum { CASE_FIGURE_SETTINGS = 8 };
+
+struct case_figure_setting { /* of the kind that the figure's recipe declares */
+    bool given;              /* false: number is the recipe's standard, the others are empty */
+    double number;
+    size_t count;
+    const double *numbers; /* numbers[0 .. count-1] */
+    const char *text;      /* NULL where not given */
+};
+
 struct case_figure {
     const char *recipe, *title, *caption; /* title and caption may be NULL */
     size_t observable_count;
-    const size_t *observable; /* indices of the case's observables that it draws */
+    const size_t *observable;  /* indices of the case's observables that it draws */
+    struct case_filter points; /* whose runs it shows */
+    bool in_tier[TIER_COUNT];
+    struct case_figure_setting setting[CASE_FIGURE_SETTINGS]; /* in the recipe's order */
     const struct yaml_node *node;
 };
 

@@ -113,8 +113,8 @@ static void read_check(struct case_reader *r, const struct layers *l, struct cas
     check_amounts(r, l, k);
 }
 
-static bool in_tier(const struct yaml_node *check, enum tier t) {
-    const struct yaml_node *list = yaml_get(check, "tiers");
+bool case_read_in_tier(const struct yaml_node *owner, enum tier t) {
+    const struct yaml_node *list = yaml_get(owner, "tiers");
     for (size_t i = 0; list != NULL && i < list->count; i++) {
         if (list->child[i].kind == YAML_SCALAR &&
             strcmp(list->child[i].text, case_tier_name(t)) == 0)
@@ -123,7 +123,7 @@ static bool in_tier(const struct yaml_node *check, enum tier t) {
     return list == NULL;
 }
 
-static void check_tiers_of(struct case_reader *r, const struct yaml_node *list) {
+void case_read_tiers(struct case_reader *r, const struct yaml_node *list) {
     for (size_t i = 0; list != NULL && i < list->count; i++) {
         const struct yaml_node *n = &list->child[i];
         struct fault unknown = FAULT_NONE;
@@ -145,7 +145,7 @@ static bool check_list(struct case_reader *r, const struct yaml_node *list) {
             good = false;
             continue;
         }
-        check_tiers_of(r, yaml_get(n, "tiers"));
+        case_read_tiers(r, yaml_get(n, "tiers"));
         for (size_t j = 0; j < i; j++) {
             const struct yaml_node *other =
                 list->child[j].kind == YAML_MAP ? yaml_get(&list->child[j], "name") : NULL;
@@ -180,7 +180,7 @@ static void check_overrides(struct case_reader *r, const struct yaml_node *list,
             k++;
         if (k == count)
             case_read_unknown(r, n, "check", n->key, names, count);
-        else if (!in_tier(&list->child[k], t))
+        else if (!case_read_in_tier(&list->child[k], t))
             case_read_fault(r, n, "check %s: is not in tier %s", n->key, case_tier_name(t));
         if (!is_off(n))
             case_read_fields(r, n, "override of a check", override_fields,
@@ -202,7 +202,7 @@ void case_read_checks(struct case_reader *r, enum tier tier, const struct yaml_n
     for (size_t i = 0; i < list->count; i++) {
         struct layers l = {.base = &list->child[i]};
         l.over = tuned == NULL ? NULL : yaml_get(tuned, yaml_get(l.base, "name")->text);
-        if (!in_tier(l.base, tier) || (l.over != NULL && is_off(l.over)))
+        if (!case_read_in_tier(l.base, tier) || (l.over != NULL && is_off(l.over)))
             continue;
         if (override_is_good(l.over))
             read_check(r, &l, &check[t->check_count++]);

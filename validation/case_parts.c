@@ -1,7 +1,5 @@
-/* case_parts.c -- what a case's tiers share: observables, across, figures, tags. */
+/* case_parts.c -- what a case's tiers share: observables, across, tags. */
 #include "validation/case_read.h"
-
-#include "validation/figures.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -213,79 +211,6 @@ static void read_all_across(struct case_reader *r) {
     r->c->across_count = n->count;
 }
 
-static void read_drawn(struct case_reader *r, const struct yaml_node *of, struct case_figure *f) {
-    size_t count = of == NULL ? 0 : of->kind == YAML_LIST ? of->count : 1;
-    size_t *index = case_read_take(r, count, sizeof *index);
-    if (index == NULL)
-        return;
-    f->observable = index;
-    for (size_t i = 0; i < count; i++) {
-        const struct yaml_node *n = of->kind == YAML_LIST ? &of->child[i] : of;
-        const char *names[MAX_NAMES];
-        size_t k = 0,
-               known = r->c->observable_count < MAX_NAMES ? r->c->observable_count : MAX_NAMES;
-        for (size_t j = 0; j < known; j++)
-            names[j] = r->c->observable[j].name;
-        if (n->kind == YAML_SCALAR)
-            k = find_output(names, known, n->text);
-        if (n->kind != YAML_SCALAR || k == known) {
-            case_read_unknown(r, n, "observable of this case",
-                              n->kind == YAML_SCALAR ? n->text : "?", names, known);
-            continue;
-        }
-        r->observable_used[k] = true;
-        index[f->observable_count++] = k;
-    }
-}
-
-static void find_figure(struct case_reader *r, const struct yaml_node *n,
-                        const struct case_figure *f) {
-    size_t count;
-    const struct figure_recipe *const *all = figure_all(&count);
-    const struct figure_recipe *recipe = figure_find(f->recipe);
-    if (recipe != NULL) {
-        if (recipe->observables != f->observable_count)
-            case_read_fault(r, n, "figure %s: `of` must name %zu observables, not %zu", f->recipe,
-                            recipe->observables, f->observable_count);
-        return;
-    }
-    const char *name[MAX_NAMES];
-    for (size_t i = 0; i < count && i < MAX_NAMES; i++)
-        name[i] = all[i]->name;
-    case_read_unknown(r, yaml_get(n, "recipe"), "figure", f->recipe, name,
-                      count < MAX_NAMES ? count : MAX_NAMES);
-}
-
-static void read_figures(struct case_reader *r) {
-    static const struct schema_field field[] = {{"recipe", SCHEMA_TEXT, true, 0, 0, NULL},
-                                                {"of", SCHEMA_ANY, false, 0, 0, NULL},
-                                                {"title", SCHEMA_TEXT, false, 0, 0, NULL},
-                                                {"caption", SCHEMA_TEXT, false, 0, 0, NULL}};
-    const struct yaml_node *list = yaml_get(r->root, "figures");
-    if (list == NULL || list->kind != YAML_LIST)
-        return;
-    struct case_figure *figure = case_read_take(r, list->count, sizeof *figure);
-    if (figure == NULL)
-        return;
-    for (size_t i = 0; i < list->count; i++) {
-        const struct yaml_node *n = &list->child[i];
-        if (n->kind != YAML_MAP) {
-            case_read_fault(r, n, "figures: must be {recipe: NAME, of: OBSERVABLE}");
-            continue;
-        }
-        if (!case_read_fields(r, n, "figure", field, sizeof field / sizeof *field))
-            continue;
-        struct case_figure *f = &figure[r->c->figure_count++];
-        f->node = n;
-        f->recipe = yaml_get(n, "recipe")->text;
-        f->title = yaml_get(n, "title") == NULL ? NULL : yaml_get(n, "title")->text;
-        f->caption = yaml_get(n, "caption") == NULL ? NULL : yaml_get(n, "caption")->text;
-        read_drawn(r, yaml_get(n, "of"), f);
-        find_figure(r, n, f);
-    }
-    r->c->figure = figure;
-}
-
 static void read_tags(struct case_reader *r) {
     const struct yaml_node *list = yaml_get(r->root, "tags");
     if (list == NULL || list->kind != YAML_LIST)
@@ -305,5 +230,5 @@ void case_read_parts(struct case_reader *r) {
     read_tags(r);
     read_observables(r);
     read_all_across(r);
-    read_figures(r);
+    case_read_figures(r);
 }

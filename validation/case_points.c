@@ -1,4 +1,4 @@
-/* case_points.c -- what the points of a tier must offer to its seeds and checks. */
+/* case_points.c -- what the points of a tier must offer to its seeds, checks and figures. */
 #include "validation/case_read.h"
 
 #include <stdlib.h>
@@ -144,6 +144,21 @@ static void use_check(struct case_reader *r, const struct grid *g, const struct 
                         k->name, case_tier_name((enum tier)(t - r->c->tier)), k->name);
 }
 
+static void use_figure(struct case_reader *r, const struct grid *g, const struct case_tier *t,
+                       const struct case_figure *f) {
+    size_t taken = 0;
+    enum tier tier = (enum tier)(t - r->c->tier);
+    if (!f->in_tier[tier])
+        return;
+    use_filter(r, g, &f->points);
+    for (size_t p = 0; p < g->count; p++)
+        taken += case_filter_takes(&f->points, grid_at(g, p), g->size);
+    if (taken == 0)
+        case_read_fault(r, f->node,
+                        "figure %s: shows no point of tier %s; say `tiers: [...]` in the figure",
+                        f->recipe, case_tier_name(tier));
+}
+
 static void use_seeds(struct case_reader *r, const struct grid *g, const struct case_tier *t) {
     for (size_t i = 0; i < t->seeds.rule_count; i++)
         use_filter(r, g, &t->seeds.rule[i].points);
@@ -166,4 +181,6 @@ void case_read_points(struct case_reader *r, enum tier tier) {
     use_seeds(r, &g, t);
     for (size_t i = 0; i < t->check_count; i++)
         use_check(r, &g, t, &t->check[i]);
+    for (size_t i = 0; i < r->c->figure_count; i++)
+        use_figure(r, &g, t, &r->c->figure[i]);
 }

@@ -1,7 +1,8 @@
 /* case_read.h -- the parts of the case reader, for case_*.c alone.
  *
  * case_load.c    the file as a whole, what applies to every tier
- * case_parts.c   observables, across, figures, tags
+ * case_parts.c   observables, across, tags
+ * case_figures.c figures and their settings
  * case_tier.c    a tier: parameters, sweep, samples, seeds, start
  * case_checks.c  checks of a tier, overrides applied
  * case_expect.c  expectations, predictions and margins
@@ -52,6 +53,7 @@ void case_read_unknown(struct case_reader *r, const struct yaml_node *n, const c
 void case_read_mark(struct case_reader *r, const struct yaml_node *n, bool used);
 
 void case_read_parts(struct case_reader *r);
+void case_read_figures(struct case_reader *r);
 bool case_read_number(struct case_reader *r, const struct yaml_node *n, struct case_number *out);
 const char *case_read_unit(const struct case_reader *r, const struct case_number *n);
 
@@ -63,5 +65,9 @@ void case_read_prediction(struct case_reader *r, const struct yaml_node *n,
 void case_read_amount(struct case_reader *r, const struct yaml_node *n, struct case_amount *out);
 void case_read_filter(struct case_reader *r, const struct yaml_node *n, struct case_filter *out);
 void case_read_points(struct case_reader *r, enum tier t);
+
+/* `tiers:` of a check or a figure: names tiers of this case; is `t` among them? */
+void case_read_tiers(struct case_reader *r, const struct yaml_node *list);
+bool case_read_in_tier(const struct yaml_node *owner, enum tier t);
 
 #endif

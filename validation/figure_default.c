@@ -42,22 +42,6 @@ static const char *find_abscissa(const struct figure_input *in) {
     return NULL;
 }
 
-static const char *name_branch(const struct figure_input *in, const struct measured_point *p,
-                               const char *along, struct arena *a) {
-    const struct case_tier *t = in->data->plan->tier;
-    const char *name = "";
-    for (size_t i = 0; i < t->axis_count && name != NULL; i++) {
-        if (strcmp(t->axis[i].name, along) == 0)
-            continue;
-        const struct case_parameter *v = &p->point->parameter[t->parameter_count + i];
-        const char *text = case_value_text(a, v->value);
-        name = text == NULL
-                   ? NULL
-                   : arena_text(a, "%s%s%s %s", name, *name == '\0' ? "" : ", ", v->name, text);
-    }
-    return name;
-}
-
 static struct branch *find_branch(struct branch *list, size_t *count, const char *label) {
     for (size_t i = 0; i < *count; i++) {
         if (strcmp(list[i].label, label) == 0)
@@ -88,7 +72,7 @@ static enum status collect(const struct figure_input *in, const struct case_chec
     for (size_t i = 0; i < in->row_count; i++) {
         if (!is_drawn(in, i, check) || !isfinite(in->row[i].measured))
             continue;
-        const char *label = name_branch(in, in->row_point[i], along, a);
+        const char *label = figure_point_text(in->data, in->row_point[i], along, a);
         if (label == NULL)
             return no_memory(fault);
         struct branch *b = find_branch(list, count, label);
@@ -170,10 +154,11 @@ static enum status draw_check(const struct figure_input *in, const struct case_c
                               case_comparison_name(check->comparison)),
         .alt = arena_text(out->arena, "%s measured and expected over %s, and their difference",
                           check->observable, along),
-        .x_label = along,
+        .x_label = figure_axis_text(along, out->arena),
         .panel_count = 2,
         .panel = panel};
-    if (f.name == NULL || f.caption == NULL || f.alt == NULL || panel[0].y_label == NULL)
+    if (f.name == NULL || f.caption == NULL || f.alt == NULL || f.x_label == NULL ||
+        panel[0].y_label == NULL)
         return no_memory(fault);
     return figure_add(out, &f, fault);
 }

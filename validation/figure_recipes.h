@@ -4,7 +4,12 @@
 
 #include "validation/figures.h"
 
-extern const struct figure_recipe figure_settling_curve; /* figure_settling.c */
-extern const struct figure_recipe figure_snapshot;       /* figure_snapshot.c */
+extern const struct figure_recipe figure_settling_curve;     /* figure_settling.c */
+extern const struct figure_recipe figure_snapshot;           /* figure_snapshot.c */
+extern const struct figure_recipe figure_sequence_panels;    /* figure_sequence.c */
+extern const struct figure_recipe figure_sequence_animation; /* figure_sequence.c */
+extern const struct figure_recipe figure_curves;             /* figure_curves.c */
+extern const struct figure_recipe figure_fluidization_curve; /* figure_fluidization.c */
+extern const struct figure_recipe figure_bubble_rise;        /* figure_bubbles.c */
 
 #endif

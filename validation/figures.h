@@ -7,7 +7,8 @@
  * function that the checks used.  Whatever it builds is taken from out->arena
  * and lives as long as the report.
  *
- * A case asks for one with `figures: [{recipe: settling-curve, of: [settling]}]`;
+ * A case asks for one with `figures: [{recipe: settling-curve, of: [settling]}]`, chooses the runs
+ * with `points:` (then `data` has only these) and sets what the recipe's table of settings allows;
  * every case has the default figure (figure_default.c) besides.
  */
 #ifndef VALIDATION_FIGURES_H
@@ -16,7 +17,7 @@
 #include "report/report.h"
 #include "validation/measure.h"
 
-enum { FIGURES_MAX = 16 };
+enum { FIGURES_MAX = 32 };
 
 struct figure_input {
     const struct measured_case *data; /* data->point[i].run[k].observable[j].value, .curve */
@@ -32,15 +33,27 @@ struct figure_input {
 
 struct figure_output {
     struct arena *arena; /* for every array and text below */
-    size_t figure_count, picture_count, table_count;
+    size_t figure_count, picture_count, table_count, sequence_count, animation_count;
     struct report_figure figure[FIGURES_MAX];
     struct report_picture picture[FIGURES_MAX];
     struct report_table table[FIGURES_MAX];
+    struct report_sequence sequence[FIGURES_MAX], animation[FIGURES_MAX];
+};
+
+/* FIGURE_CURVE is a text that names a curve of the first observable of `of:`. */
+enum figure_kind { FIGURE_NUMBER, FIGURE_NUMBERS, FIGURE_TEXT, FIGURE_CURVE };
+
+struct figure_setting {
+    const char *name, *doc;
+    enum figure_kind kind;
+    bool required;
+    double standard, min, max; /* numbers: closed range, checked where min < max */
 };
 
 struct figure_recipe {
     const char *name, *title;
     size_t observables; /* how many names `of:` must have; 0: none needed */
+    struct figure_setting setting[CASE_FIGURE_SETTINGS]; /* ends at name == NULL */
     /* Adds figures, pictures and tables to *out.  STATUS_BAD_INPUT when the data
      * do not suit; the report then says so in place of the figure. */
     enum status (*build)(const struct figure_input *in, struct figure_output *out,
@@ -56,6 +69,10 @@ const struct figure_recipe *const *figure_all(size_t *count);
 enum status figure_default_build(const struct figure_input *in, struct figure_output *out,
                                  struct fault *fault);
 
+/* Those points of a measured case that pass the figure's filter, in *out (taken from the arena). */
+enum status figure_select(const struct measured_case *data, const struct case_figure *wanted,
+                          struct arena *arena, struct measured_case *out, struct fault *fault);
+
 /* Append by value; STATUS_BAD_INPUT beyond FIGURES_MAX. */
 enum status figure_add(struct figure_output *out, const struct report_figure *f,
                        struct fault *fault);
@@ -63,5 +80,27 @@ enum status figure_add_picture(struct figure_output *out, const struct report_pi
                                struct fault *fault);
 enum status figure_add_table(struct figure_output *out, const struct report_table *t,
                              struct fault *fault);
+enum status figure_add_sequence(struct figure_output *out, const struct report_sequence *s,
+                                struct fault *fault);
+enum status figure_add_animation(struct figure_output *out, const struct report_sequence *s,
+                                 struct fault *fault);
+
+/* The nth (from 0) curve of a name in one run's measurement, or NULL. */
+const struct curve *figure_curve_find(const struct measurement *m, const char *name, size_t nth);
+/* Mean over a point's seeds of an output by name, and its standard error (0: one seed); NaN where
+ * no seed has it. */
+double figure_mean(const struct figure_input *in, const struct measured_point *p,
+                   const char *output, double *error);
+/* Is the first observable of `of:` one of this recipe?  The fault says so if not. */
+enum status figure_needs(const struct figure_input *in, const char *recipe, struct fault *fault);
+
+/* figure_text.c: names of parameters as a reader wants them.  "flux_l_per_tau" is the quantity
+ * "flux" in l/tau: "flux (l/tau)" on an axis, "flux 0.2 l/tau" of a point.  NULL: no memory. */
+const char *figure_axis_text(const char *parameter, struct arena *a);
+const char *figure_value_text(const char *parameter, const char *value, struct arena *a);
+/* What tells this point from the others of `data`: "corrected, flux 0.2 l/tau"; empty for a
+ * single point.  The parameter `along` (or NULL) is left out. */
+const char *figure_point_text(const struct measured_case *data, const struct measured_point *p,
+                              const char *along, struct arena *a);
 
 #endif
