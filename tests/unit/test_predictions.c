@@ -137,6 +137,52 @@ START_TEST(the_step_shrinks_discs_by_the_mean_overlap) {
 }
 END_TEST
 
+/* The drop of a bed at rest grows in proportion to the flux; it carries the bed where
+ * it is the weight: found by halving, slice by slice. */
+static double carrying_flux(double rho, double gravity, int exponent) {
+    double low = 0, high = 100, k = pow(1 - rho, exponent) / (rho * rho);
+    for (int i = 0; i < 200; i++) {
+        double q = (low + high) / 2, drop = 0, weight = 0;
+        for (int slice = 0; slice < 100; slice++) {
+            drop += q / k * 0.31;
+            weight += gravity * rho * 0.31;
+        }
+        *(drop < weight ? &low : &high) = q;
+    }
+    return low;
+}
+
+START_TEST(a_bed_is_carried_where_the_drop_is_its_weight) {
+    double in[] = {0.5673, 1.3};
+    ck_assert_double_eq_tol(at("minimum-fluidization-published", in), carrying_flux(0.5673, 1.3, 4),
+                            1e-13);
+    ck_assert_double_eq_tol(at("minimum-fluidization-corrected", in), carrying_flux(0.5673, 1.3, 3),
+                            1e-13);
+    ck_assert_double_eq_tol(at("plug-speed", (double[]){0.31, 0.0637}), 0.2463, 1e-15);
+    double plug[] = {0.31, 1.07, 0.5673, 1.3};
+    ck_assert_double_eq_tol(at("plug-speed-published", plug),
+                            0.31 - 1.07 * carrying_flux(0.5673, 1.3, 4), 1e-13);
+    ck_assert_double_eq_tol(at("plug-speed-corrected", plug),
+                            0.31 - 1.07 * carrying_flux(0.5673, 1.3, 3), 1e-13);
+}
+END_TEST
+
+/* The cap's area by slices of the circle above its chord. */
+START_TEST(a_plane_bubble_rises_with_the_root_of_its_nose) {
+    const double angle[] = {37, 60, 90, 180};
+    for (size_t i = 0; i < 4; i++) {
+        double radius = 1.7, g = 0.6, area = 0, low = radius * cos(angle[i] * M_PI / 180);
+        for (int s = 0; s < 1000000; s++) {
+            double y = low + (radius - low) * (s + 0.5) / 1e6;
+            area += 2 * sqrt(radius * radius - y * y) * (radius - low) / 1e6;
+        }
+        double root = sqrt(g * sqrt(4 * area / M_PI)), speed = 0.5 * sqrt(g * radius);
+        ck_assert_double_eq_tol(at("plane-bubble-rise", (double[]){root, angle[i]}), speed, 1e-6);
+        ck_assert_double_eq_tol(at("plane-bubble-coefficient", &angle[i]), speed / root, 1e-6);
+    }
+}
+END_TEST
+
 int main(void) {
     const TTest *const tests[] = {names_are_unique_and_inputs_end,
                                   own_laws_are_where_grains_stop_accelerating,
@@ -145,6 +191,8 @@ int main(void) {
                                   mode_rates_are_those_of_the_difference_equation,
                                   a_grain_floats_at_the_neutral_flux,
                                   the_step_shrinks_discs_by_the_mean_overlap,
+                                  a_bed_is_carried_where_the_drop_is_its_weight,
+                                  a_plane_bubble_rises_with_the_root_of_its_nose,
                                   NULL};
     return unit_run("predictions", tests);
 }
