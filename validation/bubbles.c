@@ -409,6 +409,27 @@ enum status bubbles_add(struct bubbles *b, double time_tau, const double *solid_
     return status ? status : end_tracks(b, fault);
 }
 
+/* Does the later event undo the earlier one? */
+static bool undoes(const struct bubble_event *late, const struct bubble_event *early) {
+    if (early->kind == BUBBLE_MERGE)
+        return late->kind == BUBBLE_SPLIT && late->other == early->other &&
+               late->area_l2 >= early->area_l2 / 2;
+    return early->kind == BUBBLE_SPLIT && late->kind == BUBBLE_MERGE &&
+           ((late->track == early->track && late->other == early->other) ||
+            (late->track == early->other && late->other == early->track));
+}
+
+void bubbles_mark_brief(struct bubbles *b, double within_tau) {
+    struct bubble_event *e = b->events.data;
+    for (size_t i = 0; i < b->events.count; i++)
+        e[i].brief = false;
+    for (size_t i = 0; i < b->events.count; i++)
+        for (size_t j = i + 1;
+             !e[i].brief && j < b->events.count && e[j].time_tau <= e[i].time_tau + within_tau; j++)
+            if (!e[j].brief && undoes(&e[j], &e[i]))
+                e[i].brief = e[j].brief = true;
+}
+
 /* -- motion ---------------------------------------------------------------------- */
 
 /* Scratch of one stretch: time[] and height[] of its points. */
@@ -445,14 +466,16 @@ static enum status end_run(const struct bubbles *b, struct run *r, size_t track,
 }
 
 static enum status add_stretches(const struct bubbles *b, size_t track, size_t min_points,
-                                 struct run *r, struct pile *out, struct fault *fault) {
+                                 double longest_tau, struct run *r, struct pile *out,
+                                 struct fault *fault) {
     enum status status = STATUS_OK;
     for (size_t i = track_at(b, track)->first; i != BUBBLE_NONE && !status;
          i = point_at(b, i)->next) {
         const struct bubble_point *p = point_at(b, i);
-        if (p->fresh)
+        double time = frame_at(b, p->frame)->time_tau;
+        if (p->fresh || (r->points && time > r->time[0] + longest_tau))
             status = end_run(b, r, track, min_points, out, fault);
-        r->time[r->points] = frame_at(b, p->frame)->time_tau;
+        r->time[r->points] = time;
         r->height[r->points++] = p->shape.y_l;
         r->area += p->shape.area_l2;
         r->at_wall += (p->shape.walls & (COMPONENT_LEFT | COMPONENT_RIGHT)) != 0;
@@ -460,7 +483,7 @@ static enum status add_stretches(const struct bubbles *b, size_t track, size_t m
     return status ? status : end_run(b, r, track, min_points, out, fault);
 }
 
-enum status bubbles_stretches(const struct bubbles *b, size_t min_points,
+enum status bubbles_stretches(const struct bubbles *b, size_t min_points, double longest_tau,
                               struct bubble_stretch **out, size_t *count, struct fault *fault) {
     enum status status = STATUS_OK;
     struct pile found = {.size = sizeof(struct bubble_stretch)};
@@ -474,7 +497,7 @@ enum status bubbles_stretches(const struct bubbles *b, size_t min_points,
         status =
             fault_set(fault, STATUS_BAD_INPUT, "a stretch of %zu points has no speed", min_points);
     for (size_t t = 0; t < b->tracks.count && !status; t++)
-        status = add_stretches(b, t, min_points, &r, &found, fault);
+        status = add_stretches(b, t, min_points, longest_tau, &r, &found, fault);
     free(r.time);
     free(r.height);
     if (status) {

@@ -75,10 +75,11 @@ struct bubble_track {
 
 struct bubble_event {
     enum bubble_event_kind kind;
+    bool brief;          /* see bubbles_mark_brief */
     double time_tau;     /* of the frame that shows it */
     size_t track, other; /* other: split from, merged into; BUBBLE_NONE without */
-    double area_l2,
-        other_l2; /* before (merge, burst, engulf, vanish) or after; other_l2: 0 without */
+    double area_l2;      /* before a merge, burst, engulf or vanish; after the others */
+    double other_l2;     /* the same of the other; 0 without */
 };
 
 struct bubble_frame {
@@ -110,6 +111,11 @@ struct bubble_history {
 };
 struct bubble_history bubbles_history(const struct bubbles *b);
 
+/* Voids that touch and part again make pairs of events that mean nothing.  Marks as brief a merge
+ * after which at least half of what came leaves again within within_tau, a split whose parts are
+ * one again within that time, and the event that undoes it. */
+void bubbles_mark_brief(struct bubbles *b, double within_tau);
+
 /* Uninterrupted motion of one bubble over several frames. */
 struct bubble_stretch {
     size_t track, points;
@@ -119,8 +125,9 @@ struct bubble_stretch {
     bool at_side_wall; /* it touches one in at least half of the frames */
 };
 /* Stretches of at least min_points (3 or more) points whose mean area is area_min or more, in
- * the order of their bubbles.  *out is the caller's to free. */
-enum status bubbles_stretches(const struct bubbles *b, size_t min_points,
+ * the order of their bubbles.  Motion that lasts for more than longest_tau is cut into several,
+ * because bubbles change on the way.  *out is the caller's to free. */
+enum status bubbles_stretches(const struct bubbles *b, size_t min_points, double longest_tau,
                               struct bubble_stretch **out, size_t *count, struct fault *fault);
 
 #endif

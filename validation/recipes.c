@@ -10,6 +10,7 @@ static const struct recipe *const RECIPES[] = {
     &recipe_uniform_fraction, &recipe_gas_work,   &recipe_acceleration,  &recipe_free_fall,
     &recipe_energy,           &recipe_mirror,     &recipe_pair,          &recipe_corner_hits,
     &recipe_disc_pressure,    &recipe_packed_bed, &recipe_bed_motion,    &recipe_pressure_drop,
+    &recipe_bubbles,
 };
 
 const struct recipe *recipe_find(const char *name) {

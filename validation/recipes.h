@@ -24,5 +24,6 @@ extern const struct recipe recipe_disc_pressure;    /* observe_discs.c */
 extern const struct recipe recipe_packed_bed;       /* observe_packed.c */
 extern const struct recipe recipe_bed_motion;       /* observe_bed.c */
 extern const struct recipe recipe_pressure_drop;    /* observe_drop.c */
+extern const struct recipe recipe_bubbles;          /* observe_bubbles.c */
 
 #endif
