@@ -15,11 +15,12 @@ struct item {
     void *data; /* doubles, or int64 for H5_INTEGER */
 };
 
-enum { ITEM_COUNT = 9, COUNTER_COUNT = 24 };
+enum { ITEM_COUNT = 13, COUNTER_COUNT = 24, LABELS = 4 };
 
 static void list_items(struct graingas *s, struct item *item) {
     struct grains *g = &s->grains;
     struct neighbours *n = &s->contacts.neighbours;
+    struct sleep *z = &s->sleep;
     struct item all[ITEM_COUNT] = {
         {"state/x", H5_REAL, g->count, g->x},
         {"state/y", H5_REAL, g->count, g->y},
@@ -29,7 +30,11 @@ static void list_items(struct graingas *s, struct item *item) {
         {"state/rebuild_x", H5_REAL, g->count, n->x},
         {"state/rebuild_y", H5_REAL, g->count, n->y},
         {"state/pressure", H5_REAL, s->lattice.sites, s->gas.pressure},
-        {"state/collision_virial", H5_REAL, s->lattice.sites, s->contacts.virial_field}};
+        {"state/collision_virial", H5_REAL, s->lattice.sites, s->contacts.virial_field},
+        {"state/anchor", H5_REAL, 2 * g->count, z->anchor},
+        {"state/load", H5_REAL, g->count, z->load},
+        {"state/quiet", H5_REAL, g->count, z->quiet},
+        {"state/hits", H5_REAL, g->count, z->hits}};
     memcpy(item, all, sizeof all);
 }
 
@@ -78,12 +83,15 @@ static void unpack_counters(struct graingas *s, const double *c) {
     memcpy(t->wall_virial, c + 19, sizeof t->wall_virial);
 }
 
-/* Ids, species and last hits side by side: labels[3 count]. */
-static void pack_labels(const struct grains *g, int64_t *labels) {
+/* Ids, species, last hits and sleep side by side: labels[LABELS count]. */
+static void pack_labels(const struct graingas *s, int64_t *labels) {
+    const struct grains *g = &s->grains;
     for (size_t i = 0; i < g->count; i++) {
-        labels[3 * i] = g->id[i];
-        labels[3 * i + 1] = g->species[i];
-        labels[3 * i + 2] = g->last_hit[i];
+        int64_t *label = labels + LABELS * i;
+        label[0] = g->id[i];
+        label[1] = g->species[i];
+        label[2] = g->last_hit[i];
+        label[3] = s->sleep.asleep[g->id[i]];
     }
 }
 
@@ -92,13 +100,13 @@ enum status graingas_save(const void *state, const char *path, struct fault *fau
     struct item item[ITEM_COUNT];
     double counter[COUNTER_COUNT];
     struct h5_writer *w = NULL;
-    size_t counters = COUNTER_COUNT, label_count = 3 * s->grains.count;
+    size_t counters = COUNTER_COUNT, label_count = LABELS * s->grains.count;
     int64_t *labels = malloc((label_count + 1) * sizeof *labels);
     if (!labels)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
     list_items(s, item);
     pack_counters(s, counter);
-    pack_labels(&s->grains, labels);
+    pack_labels(s, labels);
     if (h5_create(path, &w, fault) != STATUS_OK)
         goto done;
     for (size_t k = 0; k < ITEM_COUNT; k++)
@@ -130,15 +138,18 @@ static enum status read_exactly(struct h5_reader *r, const char *name, size_t co
     return fault->status;
 }
 
-static enum status load_labels(struct h5_reader *r, struct grains *g, struct fault *fault) {
-    double *labels = malloc((3 * g->count + 1) * sizeof *labels);
+static enum status load_labels(struct h5_reader *r, struct graingas *s, struct fault *fault) {
+    struct grains *g = &s->grains;
+    double *labels = malloc((LABELS * g->count + 1) * sizeof *labels);
     if (!labels)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
-    if (read_exactly(r, "state/labels", 3 * g->count, labels, fault) == STATUS_OK)
+    if (read_exactly(r, "state/labels", LABELS * g->count, labels, fault) == STATUS_OK)
         for (size_t i = 0; i < g->count; i++) {
-            g->id[i] = (int32_t)labels[3 * i];
-            g->species[i] = (int32_t)labels[3 * i + 1];
-            g->last_hit[i] = (int64_t)labels[3 * i + 2];
+            const double *label = labels + LABELS * i;
+            g->id[i] = (int32_t)label[0];
+            g->species[i] = (int32_t)label[1];
+            g->last_hit[i] = (int64_t)label[2];
+            s->sleep.asleep[g->id[i]] = label[3] != 0;
         }
     free(labels);
     return fault->status;
@@ -176,10 +187,11 @@ enum status graingas_load(void *state, const char *path, struct fault *fault) {
         if (read_exactly(r, item[k].name, item[k].count, item[k].data, fault))
             goto done;
     if (read_exactly(r, "state/counters", COUNTER_COUNT, counter, fault) ||
-        load_labels(r, &s->grains, fault))
+        load_labels(r, s, fault))
         goto done;
     unpack_counters(s, counter);
     grains_weigh(&s->grains);
+    sleep_restore(&s->sleep, &s->grains);
     restore_neighbours(s, fault);
 done:
     h5_close(r);

@@ -70,11 +70,13 @@ static void add_wall(struct contacts *c, const struct grains *g, double threshol
                      int wall, double distance, double nx, double ny) {
     if (distance >= g->radius[i])
         return;
+    c->deepest = fmax(c->deepest, g->radius[i] - distance);
+    if (g->inverse_mass[i] == 0)
+        return;
     double support = wall == WALL_BOTTOM ? 0.5 * threshold : 0;
     c->contact[c->count++] = (struct contact){.i = (int32_t)i,
                                               .j = (int32_t)g->count,
                                               .wall = wall,
-                                              .overlap = (float)(g->radius[i] - distance),
                                               .rest = -0.98 * support,
                                               .support = support,
                                               .reduced_mass = g->area[i],
@@ -92,14 +94,19 @@ static void add_pairs(struct contacts *c, const struct grains *g, double thresho
         double square = dx * dx + dy * dy;
         if (square >= reach * reach)
             continue;
-        double d = sqrt(square);
+        double d = sqrt(square), depth = (reach - d) * per_rest;
+        double inverse_mass = g->inverse_mass[i] + g->inverse_mass[j];
+        bool held = g->inverse_mass[i] == 0 || g->inverse_mass[j] == 0;
+        c->deepest = fmax(c->deepest, reach - d);
+        if (inverse_mass == 0)
+            continue;
         c->contact[c->count++] =
             (struct contact){.i = (int32_t)i,
                              .j = j,
                              .wall = -1,
-                             .overlap = (float)(reach - d),
-                             .rest = threshold * fmax(0, 1 - (reach - d) * per_rest),
-                             .reduced_mass = 1 / (g->inverse_mass[i] + g->inverse_mass[j]),
+                             .held = held,
+                             .rest = threshold * fmax(held ? 0.5 : 0, 1 - depth),
+                             .reduced_mass = 1 / inverse_mass,
                              .nx = d > 0 ? dx / d : 0,
                              .ny = d > 0 ? dy / d : 1};
     }
@@ -109,6 +116,7 @@ static enum status list_contacts(struct contacts *c, const struct grains *g, dou
                                  struct fault *fault) {
     const struct neighbours *n = &c->neighbours;
     c->count = 0;
+    c->deepest = 0;
     for (size_t i = 0; i < g->count; i++) {
         if (make_room(c, c->count + 4 + n->first[i + 1] - n->first[i], fault) != STATUS_OK)
             return fault->status;
@@ -158,7 +166,7 @@ static inline double approach_speed(const struct contact *k, const struct body *
 static inline void collide(struct contacts *c, struct contact *k, double speed,
                            const struct contact_rule *rule) {
     struct body *a = &c->body[k->i], *b = &c->body[k->j];
-    bool elastic = a->last_hit >= rule->step - 1 || b->last_hit >= rule->step - 1;
+    bool elastic = !k->held && (a->last_hit >= rule->step - 1 || b->last_hit >= rule->step - 1);
     double leaving = (elastic ? 1 : rule->restitution) * speed;
     if (leaving < k->support)
         leaving = k->support;
@@ -280,11 +288,8 @@ static void tally_step(struct contacts *c, const struct grains *g, int sweeps) {
     t->sweeps += sweeps;
     if (sweeps > t->most_sweeps)
         t->most_sweeps = sweeps;
-    float deepest = 0;
     for (size_t n = 0; n < c->count; n++) {
         const struct contact *k = &c->contact[n];
-        if (k->overlap > deepest)
-            deepest = k->overlap;
         if (k->impulse == 0)
             continue;
         if (k->wall < 0) {
@@ -296,7 +301,7 @@ static void tally_step(struct contacts *c, const struct grains *g, int sweeps) {
             t->wall_virial[k->wall] += k->impulse * wall_distance(c, g, k);
         }
     }
-    t->largest_overlap = deepest;
+    t->largest_overlap = c->deepest;
 }
 
 static void take_bodies(struct contacts *c, const struct grains *g) {
@@ -309,7 +314,27 @@ static void give_bodies(const struct contacts *c, struct grains *g) {
     for (size_t i = 0; i < g->count; i++) {
         g->vx[i] = c->body[i].vx;
         g->vy[i] = c->body[i].vy;
+        g->inverse_mass[i] = c->body[i].inverse_mass;
         g->last_hit[i] = c->body[i].last_hit;
+    }
+}
+
+/* Grains that are squeezed for good between others held in place are no ground: held grains
+ * that were hit in this step get their mass back. */
+static void release_held(struct contacts *c, const struct grains *g) {
+    for (size_t n = 0; n < c->count; n++) {
+        struct contact *k = &c->contact[n];
+        if (k->held && k->impulse > 0)
+            for (int side = 0; side < 2; side++) {
+                int32_t grain = side ? k->j : k->i;
+                c->body[grain].inverse_mass = 1 / g->area[grain];
+            }
+    }
+    for (size_t n = 0; n < c->count; n++) {
+        struct contact *k = &c->contact[n];
+        double a = c->body[k->i].inverse_mass, b = c->body[k->j].inverse_mass;
+        k->held = k->held && (a == 0 || b == 0);
+        k->reduced_mass = 1 / (a + b);
     }
 }
 
@@ -325,6 +350,8 @@ enum status contacts_resolve(struct contacts *c, struct grains *g, const struct 
     while (again) {
         if (sweeps == CONTACTS_MAX_SWEEPS)
             return too_many_sweeps(c, g, rule, fault);
+        if (sweeps > 0 && sweeps % CONTACTS_PATIENCE == 0)
+            release_held(c, g);
         again = sweeps++ % 2 ? sweep_down(c, rule) : sweep_up(c, rule);
     }
     give_bodies(c, g);

@@ -28,7 +28,7 @@
 #include "solver/graingas/neighbours.h"
 
 enum { WALL_LEFT, WALL_RIGHT, WALL_BOTTOM, WALL_TOP, WALL_COUNT };
-enum { CONTACTS_MAX_SWEEPS = 100000 };
+enum { CONTACTS_MAX_SWEEPS = 100000, CONTACTS_PATIENCE = 1000 };
 #define CONTACTS_REST_OVERLAP 0.04 /* of the largest diameter */
 
 struct contact {          /* one cache line */
@@ -37,8 +37,7 @@ struct contact {          /* one cache line */
     double rest, support; /* approach that needs no collision; least speed of leaving (U0) */
     double reduced_mass;  /* of the two (l^2) */
     double impulse;       /* exchanged in this step (l^2 U0) */
-    float overlap;        /* (l) */
-    int32_t wall;         /* which, or -1 */
+    int32_t wall, held;   /* which, or -1; one of the two is held in place (sleep.h) */
 };
 
 /* What a collision reads and writes of a grain, side by side. */
@@ -67,6 +66,7 @@ struct contacts {
     /* Contacts of grain n: own[n] .. own[n+1]-1, in which it is i, and
      * other[other_first[n] .. other_first[n+1]-1], in which it is j. */
     int32_t *own, *other_first, *other;
+    double deepest;       /* overlap of any pair or wall in this step (l) */
     double rest_overlap;  /* overlap at which no approach counts as rest (l) */
     double *virial_field; /* virial by nearest lattice site of the pair's middle;
                            * [0 .. sites-1], row by row from the floor (l^3 U0) */

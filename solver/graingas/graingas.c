@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <time.h>
 
 static void graingas_free(void *state) {
@@ -16,6 +17,7 @@ static void graingas_free(void *state) {
     grains_free(&s->grains);
     gas_free(&s->gas);
     contacts_free(&s->contacts);
+    sleep_free(&s->sleep);
     free(s->ax);
     free(s->ay);
     free(s->scratch);
@@ -43,7 +45,8 @@ static enum status graingas_create(void **state, const struct parameter_set *p,
         grains_create(&s->grains, v->grains, fault) != STATUS_OK ||
         gas_create(&s->gas, &s->lattice, v, fault) != STATUS_OK ||
         contacts_create(&s->contacts, v->grains, v->width_l, v->height_l, v->diameter_max_l,
-                        fault) != STATUS_OK)
+                        fault) != STATUS_OK ||
+        sleep_create(&s->sleep, &s->grains, fault) != STATUS_OK)
         goto failed;
     s->ax = calloc(v->grains + 1, sizeof *s->ax);
     s->ay = calloc(v->grains + 1, sizeof *s->ay);
@@ -90,9 +93,15 @@ static void charge(struct graingas *s, enum part part, double *since) {
     *since = t;
 }
 
+/* Flux during the step that begins at `time`; its middle decides. */
 static double flux_at(const struct graingas_parameters *p, double time) {
-    double half = 0.5 * p->dt_tau;
-    return time + half > p->flux_on_tau && time + half < p->flux_off_tau ? p->flux_l_per_tau : 0;
+    double since = time + 0.5 * p->dt_tau - p->flux_on_tau;
+    if (since < 0 || time + 0.5 * p->dt_tau > p->flux_off_tau)
+        return 0;
+    if (p->flux_schedule.count == 0)
+        return p->flux_l_per_tau;
+    double turn = floor(since / p->flux_schedule_every);
+    return turn < (double)p->flux_schedule.count ? p->flux_schedule.value[(size_t)turn] : 0;
 }
 
 /* Grains -> lattice -> pressure -> force on grains. */
@@ -113,6 +122,15 @@ static enum status move_gas(struct graingas *s, double *clock, struct fault *fau
 static enum status move_grains(struct graingas *s, double *clock, struct fault *fault) {
     const struct graingas_parameters *p = &s->parameters;
     double fall = p->gravity / p->froude;
+    struct sleep_rule sleep = {.displacement = p->sleep_displacement,
+                               .after = p->sleep_after,
+                               .fall = fall,
+                               .dt = p->dt_tau};
+    if (p->gas == GAS_NONE) {
+        memset(s->ax, 0, p->grains * sizeof *s->ax);
+        memset(s->ay, 0, p->grains * sizeof *s->ay);
+    }
+    sleep_hold(&s->sleep, &s->grains, &sleep, s->ax, s->ay);
     push_forced(&s->grains, s->ax, s->ay, fall, p->dt_tau);
     long lost = halo_first_outside(&s->lattice, &s->grains);
     if (lost >= 0)
@@ -123,10 +141,14 @@ static enum status move_grains(struct graingas *s, double *clock, struct fault *
     struct contact_rule rule = {.restitution = p->restitution,
                                 .threshold = p->approach_threshold * fall * p->dt_tau,
                                 .step = s->step + 1};
+    if (neighbours_update(&s->contacts.neighbours, &s->grains, fault) != STATUS_OK)
+        return fault->status;
+    sleep_disturb(&s->sleep, &s->grains, &sleep, &s->contacts.neighbours);
     if (contacts_find(&s->contacts, &s->grains, &rule, fault) != STATUS_OK)
         return fault->status;
     charge(s, PART_SEARCH, clock);
     contacts_resolve(&s->contacts, &s->grains, &rule, fault);
+    s->contacts.tally.dissipated += sleep_settle(&s->sleep, &s->grains, &sleep, &s->contacts);
     charge(s, PART_COLLISIONS, clock);
     return fault->status;
 }

@@ -12,6 +12,7 @@
 
 #include "solver/graingas/contacts.h"
 #include "solver/graingas/gas.h"
+#include "solver/graingas/sleep.h"
 
 enum part { PART_HALO, PART_PRESSURE, PART_PUSH, PART_SEARCH, PART_COLLISIONS, PART_COUNT };
 
@@ -21,6 +22,7 @@ struct graingas {
     struct grains grains;
     struct gas gas;
     struct contacts contacts;
+    struct sleep sleep;
     double *ax, *ay; /* from the gas, [0 .. grains-1] (U0/tau) */
     long long step;
     double start_collisions;    /* of the equilibration, per grain */

@@ -39,6 +39,7 @@ const struct dataset graingas_datasets[] = {
     {"observables/drag_rate_max", DATASET_SAMPLES, "largest drag rate of any site (1/tau)"},
     {"observables/kinetic_energy", DATASET_SAMPLES, "(l^2 U0^2)"},
     {"observables/potential_energy", DATASET_SAMPLES, "mass gravity height/Fr (l^2 U0^2)"},
+    {"observables/sleeping", DATASET_SAMPLES, "grains asleep (1)"},
     {"observables/unabsorbed_force", DATASET_SAMPLES,
      "[2]: of the gas where rho < rho_min (l^2 rho_g g)"},
     {NULL, DATASET_SAMPLES, NULL}};
@@ -200,6 +201,7 @@ static enum status observe_observables(struct graingas *s, const char *name, str
                   {"pressure_iterations", "1", s->gas.outcome.iterations},
                   {"largest_overlap", "l", t->largest_overlap},
                   {"collision_virial", "l^3 U0", t->virial},
+                  {"sleeping", "1", (double)s->sleep.sleeping},
                   {"kinetic_energy", "l^2 U0^2", grains_kinetic_energy(&s->grains)},
                   {"potential_energy", "l^2 U0^2", potential_energy(s)}};
     const char *what = strrchr(name, '/') + 1;

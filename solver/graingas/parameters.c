@@ -42,6 +42,10 @@ const struct parameter graingas_parameter_table[] = {
          "solid volume fraction over area fraction"),
     REAL("approach_threshold", "g dt/Fr", "1", 0, 100, "docs/theory.md",
          "approach speeds up to this make no collision; 0: every approach does"),
+    REAL("sleep_displacement_l", "l", "0.01", 0, 1, "docs/theory.md",
+         "a grain that stays within this of one place, pressed down, falls asleep; 0: none does"),
+    REAL("sleep_after_tau", "tau", "1", 1e-3, 1e6, "docs/theory.md",
+         "for how long it must have stayed there"),
     CHOICE("start", "random", start_choices, "not stated by MFM",
            "initial state: pushed apart, then elastic motion, a result file, or lists"),
     REAL("equilibrate_tau", "tau", "20", 0, 1e4, "docs/theory.md",
@@ -65,6 +69,10 @@ const struct parameter graingas_parameter_table[] = {
          "gas volume at P0 injected at the bottom row, a width and time; taken out on top"),
     REAL("flux_on_tau", "tau", "0", 0, 1e9, "MFM, Section IV", "injection begins"),
     REAL("flux_off_tau", "tau", "1e9", 0, 1e9, "MFM, Section IV", "injection ends"),
+    LIST("flux_schedule_l_per_tau", "l/tau", -1e3, 1e3, "minimum fluidization",
+         "fluxes one after the other from flux_on_tau, in place of flux_l_per_tau"),
+    REAL("flux_schedule_every_tau", "tau", "5", 1e-3, 1e6, "minimum fluidization",
+         "duration of each of them"),
     INTEGER("pressure_mode_x", "1", "0", 0, 4096, "verification cases",
             "start pressure A cos(pi mx x/W) cos(pi my y/H): mx"),
     INTEGER("pressure_mode_y", "1", "0", 0, 4096, "verification cases", "my of the same"),
@@ -92,6 +100,7 @@ static void read_grain_lists(const struct parameter_set *p, struct graingas_para
     out->grain_velocity_x = list_of(p, "grain_velocity_x");
     out->grain_velocity_y = list_of(p, "grain_velocity_y");
     out->fixed_bed = list_of(p, "fixed_bed");
+    out->flux_schedule = list_of(p, "flux_schedule_l_per_tau");
 }
 
 static void read_values(const struct parameter_set *p, struct graingas_parameters *out) {
@@ -111,6 +120,8 @@ static void read_values(const struct parameter_set *p, struct graingas_parameter
     out->solid_fraction_min = parameters_real(p, "solid_fraction_min");
     out->area_to_volume = parameters_real(p, "area_to_volume");
     out->approach_threshold = parameters_real(p, "approach_threshold");
+    out->sleep_displacement = parameters_real(p, "sleep_displacement_l");
+    out->sleep_after = parameters_real(p, "sleep_after_tau");
     out->start = (enum start_state)parameters_real(p, "start");
     out->equilibrate_tau = parameters_real(p, "equilibrate_tau");
     out->equilibrate_speed = parameters_real(p, "equilibrate_speed");
@@ -120,6 +131,7 @@ static void read_values(const struct parameter_set *p, struct graingas_parameter
     out->flux_l_per_tau = parameters_real(p, "flux_l_per_tau");
     out->flux_on_tau = parameters_real(p, "flux_on_tau");
     out->flux_off_tau = parameters_real(p, "flux_off_tau");
+    out->flux_schedule_every = parameters_real(p, "flux_schedule_every_tau");
     out->pressure_mode_x = (int)parameters_real(p, "pressure_mode_x");
     out->pressure_mode_y = (int)parameters_real(p, "pressure_mode_y");
     out->pressure_amplitude = parameters_real(p, "pressure_amplitude");
@@ -180,6 +192,9 @@ enum status graingas_parameters_read(const struct parameter_set *p, struct grain
     if (out->flux_off_tau < out->flux_on_tau)
         parameters_fault(p, "flux_off_tau", fault, "%g is before flux_on_tau %g", out->flux_off_tau,
                          out->flux_on_tau);
+    if (out->flux_schedule.count > 0 && out->flux_l_per_tau != 0)
+        parameters_fault(p, "flux_l_per_tau", fault, "%g beside a schedule of %zu fluxes",
+                         out->flux_l_per_tau, out->flux_schedule.count);
     if (out->fixed_bed.count > (size_t)out->height_l)
         parameters_fault(p, "fixed_bed", fault, "%zu bands in a box of %d rows",
                          out->fixed_bed.count, out->height_l);

@@ -37,19 +37,21 @@ struct graingas_parameters {
     enum face_rule face;
     double solid_fraction_min, area_to_volume;
     double approach_threshold; /* (gravity dt/Fr) */
+    double sleep_displacement, sleep_after;
     enum start_state start;
     double equilibrate_tau, equilibrate_speed, start_speed;
     struct list grain_x, grain_y, grain_diameter, grain_velocity_x, grain_velocity_y;
     bool mirror;
     double hold_tau;
     struct list fixed_bed;
-    double flux_l_per_tau, flux_on_tau, flux_off_tau;
+    double flux_l_per_tau, flux_on_tau, flux_off_tau, flux_schedule_every;
+    struct list flux_schedule;
     int pressure_mode_x, pressure_mode_y;
     double pressure_amplitude, pressure_tolerance;
     int layers;
 };
 
-enum { GRAINGAS_PARAMETER_COUNT = 36 };
+enum { GRAINGAS_PARAMETER_COUNT = 40 };
 extern const struct parameter graingas_parameter_table[GRAINGAS_PARAMETER_COUNT];
 
 /* Fill *out; lists stay owned by p.  Every fault of the values is added to fault. */
