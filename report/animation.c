@@ -85,7 +85,7 @@ static void put_head(FILE *out, const struct report_sequence *s) {
 static void put_swatch(FILE *out, const char *colour, const char *label) {
     if (!label || !*label)
         return;
-    fprintf(out, "<li><i style=\"background:%s\"></i>", colour);
+    fprintf(out, "<li class=\"colour\" style=\"--colour:%s\">", colour);
     put_text(out, "", label, "</li>\n");
 }
 
@@ -109,8 +109,8 @@ static void put_controls(FILE *out, const struct report_sequence *s) {
 
 static void put_body(FILE *out, const struct report_sequence *s) {
     put_text(out, "<body>\n<main>\n<h1>", s->title, "</h1>\n");
-    fprintf(out, "<canvas id=\"box\" role=\"img\" style=\"--ratio:%.6g\" ", s->width / s->height);
-    put_text(out, "aria-label=\"", s->alt, "\"></canvas>\n");
+    fprintf(out, "<div class=\"frame\" style=\"--ratio:%.6g\">", s->width / s->height);
+    put_text(out, "<canvas id=\"box\" role=\"img\" aria-label=\"", s->alt, "\"></canvas></div>\n");
     fputs("<noscript><p>This page needs scripts to draw; it loads nothing.</p></noscript>\n", out);
     put_controls(out, s);
     fputs("<ul class=\"key\">\n", out);

@@ -215,9 +215,9 @@ static const char style[] =
     "color:var(--text);font:1rem/1.45 system-ui,-apple-system,'Segoe UI',Roboto,'DejaVu Sans',"
     "sans-serif;overflow-wrap:anywhere}\n"
     "h1{font-size:1.15rem;margin:0 0 .5rem;font-weight:600}\n"
-    "canvas{display:block;margin:0 auto;width:min(100%,calc(max(100vh - 14rem,18rem)*"
-    "var(--ratio)));aspect-ratio:var(--ratio);background:#fff;cursor:grab;"
-    "border:3px solid #444;border-top:1px solid #999}\n"
+    ".frame{box-sizing:content-box;margin:0 auto;width:min(100% - 6px,max(100vh - 14rem,18rem)*"
+    "var(--ratio));border:3px solid var(--soft);border-top-width:1px}\n"
+    "canvas{display:block;width:100%;aspect-ratio:var(--ratio);background:#fff;cursor:grab}\n"
     ".bar{display:flex;flex-wrap:wrap;align-items:center;gap:.4rem .6rem;margin:.6rem auto}\n"
     ".bar input{flex:1 1 12rem;min-width:8rem;accent-color:#0b5cad}\n"
     "button,select{font:inherit;min-height:2.4rem;min-width:2.6rem;padding:.2rem .7rem;"
@@ -229,8 +229,8 @@ static const char style[] =
     "outline-offset:1px}\n"
     ".clock{min-width:7rem;font-variant-numeric:tabular-nums;font-weight:600}\n"
     ".key{display:flex;flex-wrap:wrap;gap:.2rem 1.2rem;list-style:none;padding:0;margin:.3rem 0}\n"
-    ".key i{display:inline-block;width:.9rem;height:.9rem;margin-right:.4rem;border:1px solid "
-    "#777;vertical-align:-.1rem}\n"
+    ".colour::before{content:'';display:inline-block;width:.9rem;height:.9rem;margin-right:.4rem;"
+    "border:1px solid #777;vertical-align:-.1rem;background:var(--colour)}\n"
     "p,.key{max-width:52rem;color:var(--soft);font-size:.925rem}\n";
 
 const char *animation_script(void) {

@@ -174,13 +174,13 @@ static double put_swatch(FILE *out, double x, double y, const char *colour, cons
 }
 
 static void put_key(FILE *out, const struct report_sequence *s, const struct layout *l) {
-    double y = l->height - 20, x = l->left, bar = bar_length(s->width);
+    double y = l->height - 20, x = MARGIN, bar = bar_length(s->width);
     char text[32];
     for (size_t k = 0; k < KINDS; k++)
         x = put_swatch(out, x, y, DRAW_KIND_COLOUR[k], s->kind_label[k]);
     put_swatch(out, x, y, DRAW_GROUND_COLOUR, s->ground_label);
     snprintf(text, sizeof text, "%g l", bar);
-    x = WIDTH - l->left - l->scale * bar;
+    x = WIDTH - MARGIN - l->scale * bar;
     fprintf(out,
             "<path stroke=\"%s\" stroke-width=\"2\" fill=\"none\" "
             "d=\"M%.2f,%.2fv10m0,-5h%.2fm0,-5v10\"/>\n",

@@ -1,6 +1,6 @@
 /* test_html.c -- index.html: self-contained, valid, every name shown as text. */
 #include "common/file.h"
-#include "tests/unit/report_sample.h"
+#include "tests/unit/sequence_sample.h"
 #include "tests/unit/unit.h"
 
 static char *written(const struct report *r, const char *folder) {
@@ -138,6 +138,32 @@ START_TEST(the_page_is_valid) {
 }
 END_TEST
 
+START_TEST(sequences_stand_in_the_page_and_players_beside_it) {
+    struct sample s;
+    struct sequence_sample grains;
+    char command[512];
+    sample_fill(&s);
+    sequence_sample_fill(&grains);
+    s.cases[0].sequence = s.cases[0].animation = &grains.sequence;
+    s.cases[0].sequence_count = s.cases[0].animation_count = 1;
+    const char *folder = unit_folder();
+    char *text = written(&s.report, folder);
+    has(text, "src=\"data:image/svg+xml,%3C?xml");
+    has(text, "<a href=\"graingas.sedimentation.time-sequence-1.svg\">");
+    has(text, "<a href=\"graingas.sedimentation.time-sequence-1.html\">");
+    ck_assert_ptr_null(strstr(text, "<script"));
+    ck_assert_int_eq(access(unit_path(folder, "graingas.sedimentation.time-sequence-1.svg"), R_OK),
+                     0);
+    ck_assert_int_eq(access(unit_path(folder, "graingas.sedimentation.time-sequence-1.html"), R_OK),
+                     0);
+    snprintf(command, sizeof command, "tidy -q -e '%s'", unit_path(folder, "index.html"));
+    if (system("command -v tidy >/dev/null") == 0)
+        ck_assert_int_eq(system(command), 0);
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
 START_TEST(an_empty_report_is_a_page_too) {
     struct report r = {.suite = "bedcheck 0.1.0", .tier = "paper"};
     const char *folder = unit_folder();
@@ -162,7 +188,8 @@ START_TEST(a_folder_that_cannot_be_made_is_named) {
 END_TEST
 
 int main(void) {
-    const TTest *const tests[] = {ids_are_unique_in_a_page_of_two_figures,
+    const TTest *const tests[] = {sequences_stand_in_the_page_and_players_beside_it,
+                                  ids_are_unique_in_a_page_of_two_figures,
                                   foreign_names_are_text,
                                   the_first_screen_answers,
                                   a_red_row_tells_how_to_repeat_it,
