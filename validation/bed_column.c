@@ -39,6 +39,20 @@ struct bed_column bed_column_measure(const double *solid_fraction, const struct 
     return c;
 }
 
+double bed_column_marker(const double *solid_fraction, const struct observe_box *box,
+                         double solid_l) {
+    double left = solid_l, above = bed_profile_row(solid_fraction, box->nx, box->ny - 1);
+    for (size_t j = box->ny - 1; j-- > 0;) {
+        double here = bed_profile_row(solid_fraction, box->nx, j), solid = (here + above) / 2;
+        if (solid >= left && solid > 0) /* share above + share^2 (here - above)/2 = left */
+            return (double)(j + 1) -
+                   2 * left / (above + sqrt(above * above + 2 * left * (here - above)));
+        left -= solid;
+        above = here;
+    }
+    return NAN;
+}
+
 double bed_column_drop(const double *pressure, const struct observe_box *box) {
     return bed_profile_row(pressure, box->nx, 0) - bed_profile_row(pressure, box->nx, box->ny - 1);
 }

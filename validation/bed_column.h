@@ -36,6 +36,11 @@ struct bed_column {
 struct bed_column bed_column_measure(const double *solid_fraction, const struct observe_box *box,
                                      double margin_l);
 
+/* Height above which lies so much solid (l); NaN if there is less. On a rigid bed it moves
+ * as the bed does, where the top, read off between two rows, swings by .07 l over each row. */
+double bed_column_marker(const double *solid_fraction, const struct observe_box *box,
+                         double solid_l);
+
 /* Pressure at the floor less that at the upper wall, each the mean over the width (P0). */
 double bed_column_drop(const double *pressure, const struct observe_box *box);
 /* The drop that carries a column, and that of the freeboard above it at a flux (P0). */

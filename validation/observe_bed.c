@@ -1,11 +1,11 @@
 /* observe_bed.c -- a bed through which gas is blown: how it rises, thins and mixes.
  *
  * From the fields (bed_column.h): top, centre of mass and bulk fraction in time,
- * their values at at_tau, the speed of the plug (straight line through the top in
- * a window), the largest top since injection began, and what the top still does at
- * the end (slope over the last end_tau, times end_tau).  The slab's fraction is the
- * mean between margin_l and top - margin_l.  From the grains (bed_grains.h): how
- * well the two colours are mixed, and which layer at the floor has not moved.
+ * their values at at_tau, the speed of the plug (straight line, in a window, through
+ * the height above which lie 2 l of solid: the plug's upper part), the largest top since injection
+ * began, and what the top still does at the end (slope over the last end_tau, times end_tau).  The
+ * slab's fraction is the mean between margin_l and top - margin_l.  From the grains (bed_grains.h):
+ * how well the two colours are mixed, and which layer at the floor has not moved.
  *
  * The dense layer is read off the profile, averaged over the last end_tau: from the
  * densest row within 3 l of the floor up to where it falls below 1.05 times the
@@ -40,6 +40,7 @@ enum {
 };
 
 static const double NEAR_FLOOR_L = 3, DENSER = 1.05;
+static const double PLUG_SOLID_L = 2; /* above the marker that tells the plug's speed */
 
 /* One run under measurement; the arrays hold one value a frame of the fields. */
 struct task {
@@ -48,7 +49,7 @@ struct task {
     struct observe_box box;
     double dt, injected_from; /* (tau) */
     const struct series *fraction;
-    double *top, *centre, *bulk, *slab; /* owned through top */
+    double *top, *centre, *bulk, *slab, *marker; /* owned through top */
     struct measurement *out;
 };
 
@@ -56,15 +57,17 @@ struct task {
 
 static enum status trace_columns(struct task *k, struct fault *fault) {
     size_t n = k->fraction->frames;
-    k->top = calloc(4 * n, sizeof *k->top);
+    k->top = calloc(5 * n, sizeof *k->top);
     if (!k->top)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu frames", n);
     k->centre = k->top + n;
     k->bulk = k->centre + n;
     k->slab = k->bulk + n;
+    k->marker = k->slab + n;
     for (size_t f = 0; f < n; f++) {
-        struct bed_column c = bed_column_measure(k->fraction->value + f * k->fraction->size,
-                                                 &k->box, k->settings[MARGIN_L]);
+        const double *field = k->fraction->value + f * k->fraction->size;
+        struct bed_column c = bed_column_measure(field, &k->box, k->settings[MARGIN_L]);
+        k->marker[f] = bed_column_marker(field, &k->box, PLUG_SOLID_L);
         if (isnan(c.top))
             return fault_set(fault, STATUS_BAD_INPUT, "%s: there is no bed at %g tau",
                              run_view_path(k->view), k->fraction->time[f]);
@@ -102,11 +105,13 @@ static void conclude_plug(struct task *k) {
     double from = k->settings[PLUG_FROM_TAU], to = k->settings[PLUG_TO_TAU];
     double *value = k->out->value;
     struct span s = span_of(k, from, to);
-    value[PLUG_SPEED] = bed_column_slope(k->fraction->time + s.first, k->top + s.first, s.count,
+    value[PLUG_SPEED] = bed_column_slope(k->fraction->time + s.first, k->marker + s.first, s.count,
                                          &value[PLUG_SPEED_ERROR]);
     if (isnan(value[PLUG_SPEED])) /* and so is its error */
-        observe_none(k->out, PLUG_SPEED, "%zu frames from %g to %g tau; 3 needed for a slope",
-                     s.count, from, to);
+        observe_none(
+            k->out, PLUG_SPEED,
+            "%zu frames from %g to %g tau, 3 needed for a slope; or less than %g l of solid",
+            s.count, from, to, PLUG_SOLID_L);
 }
 
 static void conclude_tops(struct task *k) {
@@ -313,14 +318,15 @@ const struct recipe recipe_bed_motion = {
                 {"end_tau", "tau", "length of the window at the run's end", 10, 1e-3, 1e6},
                 {"margin_l", "l", "left out of the slab at the floor and under the top", 5, 0,
                  1000},
-                {"cell_l", "l", "side of the cells in which mixing is counted", 2, 0.1, 100},
+                {"cell_l", "l", "side of the cells in which mixing is counted", 1, 0.1, 100},
                 {"row_l", "l", "height of the rows for the static layer", 0.5, 0.1, 10},
                 {"moved_l", "l", "a row that moved less, on average, is static", 0.25, 1e-6, 100}},
     .output = {{"top", "l", "height of the top at at_tau"},
                {"centre_of_mass", "l", "height, weighted with mass, at at_tau"},
                {"bulk_fraction", "1", "solid height over the top's height at at_tau"},
                {"slab_fraction", "1", "mean solid fraction of the slab at at_tau"},
-               {"plug_speed", "l/tau", "slope of the top in the plug's window"},
+               {"plug_speed", "l/tau",
+                "of the height above which lie 2 l of solid, in the plug's window"},
                {"plug_speed_error", "l/tau", "its standard error from the scatter"},
                {"top_peak", "l", "largest height of the top since injection began"},
                {"top_end_drift", "l", "change of the top over the last end_tau, by its slope"},

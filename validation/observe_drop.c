@@ -9,12 +9,14 @@
  * average_tau. The way up ends with the first step of the largest flux, the way
  * down begins with the last one (a single such step belongs to both). On each way
  *
- *     below: ratio < `below`; a line through the origin, slope s, against x
- *     above: q >= `above`/s;  the mean m of their ratios;     q_mf = m/s
+ *     below: ratio < `below`, |dz/dt| <= `fixed` q: a line through the origin, slope s,
+ *            against x
+ *     above: q >= `above`/s: the mean m of their ratios;     q_mf = m/s
  *
- * 1/s and m/s agree where m = 1; the break takes the drop as it was measured. The
- * standard error joins those of s and m. At least 3 points on either side. Steps
- * that the run does not complete, or that injection ends in, are left out.
+ * A bed that still falls after the gas was turned down is in part at rest and in part
+ * dilute: it belongs to neither. 1/s and m/s agree where m = 1; the break takes the drop as it was
+ * measured. The standard error joins those of s and m. At least 3 points on either side. Steps that
+ * the run does not complete, or that injection ends in, are left out.
  *
  * Without a schedule there is only `above`, over the window from_tau to to_tau.
  *
@@ -30,7 +32,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { AVERAGE_TAU, FROM_TAU, TO_TAU, BELOW, ABOVE, MARGIN_L };
+enum { AVERAGE_TAU, FROM_TAU, TO_TAU, BELOW, ABOVE, FIXED, MARGIN_L };
 enum {
     Q_MF_UP,
     Q_MF_UP_ERROR,
@@ -64,8 +66,14 @@ static enum status read_schedule(struct run_view *v, struct schedule *s, struct 
         status = run_view_parameter(v, "flux_l_per_tau", &s->constant, fault);
     if (!status)
         status = run_view_parameter(v, "dt_tau", &s->dt, fault);
-    if (!status)
-        status = run_view_parameter_list(v, "flux_schedule_l_per_tau", &s->flux, &s->steps, fault);
+    if (status)
+        return status;
+    struct fault none = FAULT_NONE;
+    status = run_view_parameter_list(v, "flux_schedule_l_per_tau", &s->flux, &s->steps, &none);
+    if (status == STATUS_NOT_FOUND) /* an empty list is not written */
+        return STATUS_OK;
+    if (status)
+        *fault = none;
     if (status || !s->steps)
         return status;
     status = run_view_parameter(v, "flux_schedule_every_tau", &s->every, fault);
@@ -227,12 +235,17 @@ struct branch {
     double fixed_speed;           /* largest |u| of those (l/tau) */
 };
 
+/* A bed at rest, or nearly so, that the gas does not carry. */
+static bool is_below(const struct point *p, const double *settings) {
+    return p->ratio < settings[BELOW] && fabs(p->speed) <= settings[FIXED] * fabs(p->flux);
+}
+
 /* room[0 .. 2*count-1]: scratch. */
-static void fit_below(const struct point *p, size_t count, double limit, double *room,
+static void fit_below(const struct point *p, size_t count, const double *settings, double *room,
                       struct branch *b) {
     double *x = room, *y = room + count, squares;
     for (size_t i = 0; i < count; i++)
-        if (p[i].ratio < limit) {
+        if (is_below(&p[i], settings)) {
             x[b->below_count] = p[i].flux - p[i].speed;
             y[b->below_count++] = p[i].ratio;
             b->solid_fraction += p[i].solid_fraction;
@@ -260,7 +273,7 @@ static void average_above(const struct point *p, size_t count, double from_flux,
 static struct branch find_break(const struct point *p, size_t count, const double *settings,
                                 double *room, double *ratio) {
     struct branch b = {.q_mf = NAN, .q_mf_error = NAN};
-    fit_below(p, count, settings[BELOW], room, &b);
+    fit_below(p, count, settings, room, &b);
     if (b.below_count < MIN_POINTS || !(b.slope > 0))
         return b;
     average_above(p, count, settings[ABOVE] / b.slope, ratio, &b);
@@ -430,6 +443,9 @@ const struct recipe recipe_pressure_drop = {
                 {"to_tau", "tau", "and ends", 40, 0, 1e6},
                 {"below", "1", "points of a smaller ratio are below the break", 0.9, 0.01, 1},
                 {"above", "1", "points from this share of the break on are above", 1.1, 1, 100},
+                {"fixed", "1",
+                 "points at which the bed moves faster than this share of the flux are not below",
+                 0.1, 0, 1},
                 {"margin_l", "l", "left out of the slab at the floor and under the top", 5, 0,
                  1000}},
     .output = {{"q_mf_up", "l/tau", "the break as the flux rises"},

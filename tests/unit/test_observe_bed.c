@@ -72,6 +72,23 @@ START_TEST(a_plug_has_its_speed_peak_and_drift) {
 }
 END_TEST
 
+/* A plug of any height between the rows: its marker moves as far as it does. */
+START_TEST(the_marker_moves_with_the_plug_between_rows) {
+    static double rho[BED_SITES];
+    struct observe_box box = {.width_l = W, .height_l = H, .nx = BED_NX, .ny = BED_NY};
+    double worst = 0;
+    for (int k = 0; k < 20; k++) {
+        double lifted = 2.173 + 0.137 * k;
+        memset(rho, 0, sizeof rho);
+        bed_sample_add(rho, lifted, lifted + 20, 0.5437);
+        ck_assert_double_eq_tol(bed_column_marker(rho, &box, 2), lifted + 20 - 2 / 0.5437, 1e-4);
+        worst = fmax(worst, fabs(bed_column_measure(rho, &box, 5).top - lifted - 20));
+    }
+    ck_assert_double_gt(worst, 0.05); /* the top is not that exact */
+    ck_assert(isnan(bed_column_marker(rho, &box, 20 * 0.5437 + 0.01)));
+}
+END_TEST
+
 START_TEST(values_are_those_of_the_time_asked_for) {
     struct measurement m;
     struct fake_run f = write_run(FRAMES, 0);
@@ -122,7 +139,7 @@ END_TEST
 
 START_TEST(layers_are_segregated_and_shuffled_grains_are_not) {
     struct measurement m;
-    struct fake_run f = write_run(FRAMES, 8); /* layers of 2 l: those of the cells */
+    struct fake_run f = write_run(FRAMES, 4); /* layers of 1 l: those of the cells */
     unit_ok(fake_measure(&f, "bed-motion", "at_tau", 20, &m), &f.fault);
     ck_assert_double_eq_tol(value(&m, "mixing_start"), 0, 1e-12);
     ck_assert_double_gt(value(&m, "mixing"), 0.05);
@@ -192,6 +209,7 @@ END_TEST
 
 int main(void) {
     const TTest *const tests[] = {a_plug_has_its_speed_peak_and_drift,
+                                  the_marker_moves_with_the_plug_between_rows,
                                   values_are_those_of_the_time_asked_for,
                                   the_dense_floor_ends_where_its_density_does,
                                   rows_that_stay_are_the_static_layer,

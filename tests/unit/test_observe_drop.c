@@ -2,7 +2,8 @@
  *
  * Per step of 5 tau: the bed (17.8 l of solid) creeps at a known speed, the ratio is
  * (q - u)/q_mf or the planted one where the bed is carried, the freeboard's drop is
- * added. In the first 3 tau of a step the pressure is far off. */
+ * added. In the first 3 tau of a step the pressure is far off. On the way down, at .06,
+ * the bed still falls: that point is neither below nor above. */
 #include "tests/unit/bed_sample.h"
 
 enum { STEPS = 15, PER_STEP = 10 };
@@ -10,8 +11,8 @@ enum { STEPS = 15, PER_STEP = 10 };
 static const double FLUX[STEPS] = {0.02, 0.03, 0.04, 0.05, 0.065, 0.07, 0.08, 0.1,
                                    0.08, 0.07, 0.06, 0.05, 0.04,  0.03, 0.02};
 static const double CREEP[STEPS] = {0.0004, -0.0007, 0.0011, 0.0023, 0,       0.003,   0.004, 0.007,
-                                    -0.002, -0.004,  -0.003, -0.002, -0.0013, -0.0005, 0.0002};
-static const double CARRIED[STEPS] = {0, 0, 0, 0, 1.043, 1.004, 0.998, 1.001, 0.999, 0.995};
+                                    -0.002, -0.004,  -0.02,  -0.002, -0.0013, -0.0005, 0.0002};
+static const double CARRIED[STEPS] = {0, 0, 0, 0, 1.043, 1.004, 0.998, 1.001, 0.999, 0.995, 0.87};
 static const double PECLET = 3e-4, GRAVITY = 1.2, FRACTION = 0.5637, HEIGHT = 31.5;
 
 struct plan {
@@ -103,6 +104,20 @@ START_TEST(the_bed_at_rest_has_its_fraction_and_creep) {
 }
 END_TEST
 
+START_TEST(a_falling_bed_is_not_below_unless_asked_for) {
+    struct measurement m;
+    struct fake_run f = write_run(&PLAN);
+    unit_ok(fake_measure(&f, "pressure-drop", "fixed", 0.4, &m), &f.fault);
+    ck_assert_double_eq_tol(value(&m, "fixed_speed"), 0.02, 1e-6);
+    ck_assert_ptr_nonnull(strstr(m.reason, "down: 5 points below"));
+    measurement_free(&m);
+    f = write_run(&PLAN); /* and none at all is below where nothing may move */
+    unit_ok(fake_measure(&f, "pressure-drop", "fixed", 0, &m), &f.fault);
+    ck_assert(isnan(value(&m, "q_mf_up")));
+    measurement_free(&m);
+}
+END_TEST
+
 static const struct curve *curve_of(const struct measurement *m, const char *name,
                                     const char *label) {
     for (size_t i = 0; i < m->curve_count; i++)
@@ -189,6 +204,12 @@ START_TEST(a_constant_flux_gives_the_ratio_above_only) {
     ck_assert_double_eq_tol(value(&m, "above"), (5 * 1.01 + 6 * 0.99) / 11, 1e-5);
     ck_assert(isnan(value(&m, "q_mf_up")));
     ck_assert_ptr_nonnull(strstr(m.reason, "no schedule"));
+    ck_assert_uint_eq(m.curve_count, 1);
+    ck_assert_uint_eq(m.curve[0].count, 30);
+    measurement_free(&m);
+    f = write_constant("  flux_l_per_tau: 0.31\n  flux_on_tau: 0\n  flux_off_tau: 25\n", 0.31);
+    unit_ok(fake_measure(&f, "pressure-drop", "to_tau", 20, &m), &f.fault);
+    ck_assert_double_eq_tol(value(&m, "above"), (5 * 1.01 + 6 * 0.99) / 11, 1e-5);
     measurement_free(&m);
     f = write_constant(on, 0.31); /* injection ends at 25 tau */
     unit_ok(fake_measure(&f, "pressure-drop", "to_tau", 30, &m), &f.fault);
@@ -217,6 +238,7 @@ END_TEST
 int main(void) {
     const TTest *const tests[] = {the_break_is_where_it_was_planted,
                                   the_bed_at_rest_has_its_fraction_and_creep,
+                                  a_falling_bed_is_not_below_unless_asked_for,
                                   curves_show_both_ways_the_lines_and_time,
                                   without_its_freeboard_the_ratio_is_off,
                                   too_few_points_are_no_break,
