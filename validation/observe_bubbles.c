@@ -14,8 +14,8 @@
  *   counts   births, merges, ... are of the whole run.  Merges and splits count
  *            if both partners have area_min and it lasts for 1 tau
  *   speeds   from the stretches of uninterrupted motion from rise_from_tau on,
- *            and the line u = a + c sqrt(g D_e), D_e = sqrt(4 A/pi), through them
- *            by least squares.  Pieces of one bubble's motion are counted as
+ *            and the line u = a + c sqrt(g D_e), D_e = sqrt(4 A/pi), through those
+ *            away from side walls by least squares.  Pieces of one bubble's motion are counted as
  *            independent, so the standard error of c is a lower bound.
  *   walls    the speed of each stretch along a side wall over the mean of those
  *            away from walls whose D_e is within 20 % of it (three at least)
@@ -247,11 +247,6 @@ static double diameter_of(const struct bubble_stretch *s) {
     return sqrt(4 * s->area_l2 / M_PI);
 }
 
-/* sqrt(g D_e): what the rise is compared with (U0). */
-static double scale_of(const struct task *k, const struct bubble_stretch *s) {
-    return sqrt(k->gravity * diameter_of(s));
-}
-
 /* Keep the stretches from rise_from_tau on; the others go. */
 static void choose_stretches(struct task *k) {
     size_t kept = 0;
@@ -261,14 +256,22 @@ static void choose_stretches(struct task *k) {
     k->stretches = kept;
 }
 
-static void conclude_rise(const struct task *k, struct measurement *out) {
-    double *x = k->scratch, *y = k->scratch + k->rows, weight = 0, sum = 0;
-    double a = NAN, c = NAN, a_variance, covariance, c_variance = NAN, squares;
+/* sqrt(g D_e) and speed of the stretches inside or along side walls; how many there are. */
+static size_t gather(const struct task *k, bool at_side_wall, double *x, double *y) {
+    size_t count = 0;
+    for (size_t i = 0; i < k->stretches; i++)
+        if (k->stretch[i].at_side_wall == at_side_wall) {
+            x[count] = sqrt(k->gravity * diameter_of(&k->stretch[i]));
+            y[count++] = k->stretch[i].speed_u0;
+        }
+    return count;
+}
+
+static void conclude_speed(const struct task *k, struct measurement *out) {
+    double weight = 0, sum = 0;
     for (size_t i = 0; i < k->stretches; i++) {
         const struct bubble_stretch *s = &k->stretch[i];
         double share = s->area_l2 * (s->to_tau - s->from_tau);
-        x[i] = scale_of(k, s);
-        y[i] = s->speed_u0;
         weight += share;
         sum += share * s->speed_u0;
     }
@@ -276,16 +279,22 @@ static void conclude_rise(const struct task *k, struct measurement *out) {
     if (!k->stretches)
         observe_none(out, RISE_SPEED, "no bubble moves undisturbed for %g frames",
                      k->settings[MIN_FRAMES]);
-    if (k->stretches >= MIN_STRETCHES)
-        gsl_fit_linear(x, 1, y, 1, k->stretches, &a, &c, &a_variance, &covariance, &c_variance,
-                       &squares);
+}
+
+static void conclude_fit(const struct task *k, struct measurement *out) {
+    double *x = k->scratch, *y = k->scratch + k->rows;
+    double a = NAN, c = NAN, a_variance, covariance, c_variance = NAN, squares;
+    size_t count = gather(k, false, x, y);
+    if (count >= MIN_STRETCHES)
+        gsl_fit_linear(x, 1, y, 1, count, &a, &c, &a_variance, &covariance, &c_variance, &squares);
     out->value[RISE_OFFSET] = a;
     out->value[RISE_COEFFICIENT] = c;
     out->value[RISE_COEFFICIENT_ERROR] = sqrt(c_variance);
     for (size_t i = RISE_OFFSET; i <= RISE_COEFFICIENT_ERROR; i++)
         if (!isfinite(out->value[i]))
-            observe_none(out, i, "%zu stretches of undisturbed rise, %d needed, of unequal sizes",
-                         k->stretches, (int)MIN_STRETCHES);
+            observe_none(out, i,
+                         "%zu stretches of undisturbed rise inside, %d of unequal size needed",
+                         count, (int)MIN_STRETCHES);
 }
 
 /* Mean speed of the stretches away from walls that are about as large; NaN if few. */
@@ -342,7 +351,7 @@ static void conclude_bed(const struct task *k, struct measurement *out) {
 
 /* -- curves ----------------------------------------------------------------------------------- */
 
-enum { CURVE_NUMBER, CURVE_MEAN, CURVE_LARGEST };
+enum { CURVE_NUMBER, CURVE_MEAN, CURVE_LARGEST, CURVE_RISE };
 static const char *const CURVES[] = {"number", "mean area", "largest area", "rise", NULL};
 
 /* One of the curves over time; frames without a bubble have no mean area. */
@@ -367,14 +376,12 @@ static enum status add_curves(const struct task *k, struct measurement *out, str
     enum status status = STATUS_OK;
     for (size_t which = CURVE_NUMBER; which <= CURVE_LARGEST && !status; which++)
         status = add_history(k, which, out, fault);
+    static const char *const where[] = {"inside", "at a side wall"};
     double *x = k->scratch, *y = k->scratch + k->rows;
-    for (size_t i = 0; i < k->stretches; i++) {
-        x[i] = scale_of(k, &k->stretch[i]);
-        y[i] = k->stretch[i].speed_u0;
+    for (size_t wall = 0; wall < 2 && !status; wall++) {
+        size_t count = gather(k, wall, x, y);
+        status = measurement_add_curve(out, CURVES[CURVE_RISE], where[wall], x, y, count, fault);
     }
-    if (!status)
-        status =
-            measurement_add_curve(out, CURVES[CURVE_LARGEST + 1], "", x, y, k->stretches, fault);
     return status;
 }
 
@@ -428,7 +435,8 @@ static enum status measure(struct run_view *v, const double *settings, struct me
     conclude_window(&k, &window, out);
     conclude_growth(&k, find_onset(&k), &window, out);
     conclude_events(&k, out);
-    conclude_rise(&k, out);
+    conclude_speed(&k, out);
+    conclude_fit(&k, out);
     conclude_walls(&k, out);
     conclude_bed(&k, out);
     status = add_curves(&k, out, fault);
