@@ -70,7 +70,8 @@ static void add_wall(struct contacts *c, const struct grains *g, double threshol
                      int wall, double distance, double nx, double ny) {
     if (distance >= g->radius[i])
         return;
-    c->deepest = fmax(c->deepest, g->radius[i] - distance);
+    if (g->radius[i] - distance > c->deepest)
+        c->deepest = g->radius[i] - distance;
     if (g->inverse_mass[i] == 0)
         return;
     double support = wall == WALL_BOTTOM ? 0.5 * threshold : 0;
@@ -97,7 +98,8 @@ static void add_pairs(struct contacts *c, const struct grains *g, double thresho
         double d = sqrt(square), depth = (reach - d) * per_rest;
         double inverse_mass = g->inverse_mass[i] + g->inverse_mass[j];
         bool held = g->inverse_mass[i] == 0 || g->inverse_mass[j] == 0;
-        c->deepest = fmax(c->deepest, reach - d);
+        if (reach - d > c->deepest)
+            c->deepest = reach - d;
         if (inverse_mass == 0)
             continue;
         c->contact[c->count++] =

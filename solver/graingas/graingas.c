@@ -119,13 +119,20 @@ static enum status move_gas(struct graingas *s, double *clock, struct fault *fau
     return STATUS_OK;
 }
 
+static struct sleep_rule sleep_rule_of(const struct graingas *s, double fall) {
+    const struct graingas_parameters *p = &s->parameters;
+    long long stride = llround(p->sleep_after / (SLEEP_LOOKS * p->dt_tau));
+    stride = stride > 1 ? stride : 1;
+    return (struct sleep_rule){.displacement = p->sleep_displacement,
+                               .after = p->sleep_after,
+                               .fall = fall,
+                               .elapsed = s->step % stride ? 0 : (double)stride * p->dt_tau};
+}
+
 static enum status move_grains(struct graingas *s, double *clock, struct fault *fault) {
     const struct graingas_parameters *p = &s->parameters;
     double fall = p->gravity / p->froude;
-    struct sleep_rule sleep = {.displacement = p->sleep_displacement,
-                               .after = p->sleep_after,
-                               .fall = fall,
-                               .dt = p->dt_tau};
+    struct sleep_rule sleep = sleep_rule_of(s, fall);
     if (p->gas == GAS_NONE) {
         memset(s->ax, 0, p->grains * sizeof *s->ax);
         memset(s->ay, 0, p->grains * sizeof *s->ay);

@@ -55,23 +55,31 @@ static bool is_off(const struct sleep_rule *rule) {
     return rule->displacement <= 0 || rule->fall <= 0;
 }
 
+/* Mean loads at a look; who is no longer pressed down wakes. */
+static void weigh(struct sleep *s, struct grains *g, const struct sleep_rule *rule,
+                  const double *ay) {
+    double share = rule->elapsed / (MEMORY * rule->after + rule->elapsed);
+    for (size_t i = 0; i < g->count; i++) {
+        int32_t id = g->id[i];
+        double net = ay[i] - rule->fall + s->hits[id] / (g->area[i] * rule->elapsed);
+        s->load[id] += share * (net - s->load[id]);
+        s->hits[id] = 0;
+        if (s->load[id] > -RELIEVED * rule->fall)
+            wake(s, g, i);
+    }
+}
+
 void sleep_hold(struct sleep *s, struct grains *g, const struct sleep_rule *rule, double *ax,
                 double *ay) {
     if (is_off(rule))
         return;
-    double share = rule->dt / (MEMORY * rule->after);
-    for (size_t i = 0; i < g->count; i++) {
-        int32_t id = g->id[i];
-        double net = ay[i] - rule->fall + s->hits[id] / (g->area[i] * rule->dt);
-        s->load[id] += share * (net - s->load[id]);
-        s->hits[id] = 0;
-        if (s->asleep[id] && s->load[id] > -RELIEVED * rule->fall)
-            wake(s, g, i);
-        if (s->asleep[id]) {
+    if (rule->elapsed > 0)
+        weigh(s, g, rule, ay);
+    for (size_t i = 0; i < g->count && s->sleeping > 0; i++)
+        if (g->inverse_mass[i] == 0) {
             ax[i] = 0;
             ay[i] = rule->fall;
         }
-    }
 }
 
 /* Has grain i left its place? */
@@ -89,7 +97,7 @@ static bool disturbs(const struct sleep *s, const struct grains *g, const struct
     double square = dx * dx + dy * dy, reach = touch + REACH * rule->displacement;
     if (square >= reach * reach)
         return false;
-    if (has_moved(s, g, rule, i))
+    if (rule->elapsed > 0 && has_moved(s, g, rule, i))
         return true;
     double approach = -(g->vx[i] * dx + g->vy[i] * dy), hard = HARD * rule->fall * rule->after;
     return square < touch * touch && approach > 0 && approach * approach > hard * hard * square;
@@ -100,8 +108,8 @@ static void wake_disturbed(struct sleep *s, struct grains *g, const struct sleep
     for (size_t i = 0; i < g->count; i++)
         for (size_t p = n->first[i]; p < n->first[i + 1]; p++) {
             size_t j = (size_t)n->other[p];
-            bool asleep = s->asleep[g->id[i]];
-            if (s->asleep[g->id[j]] == asleep)
+            bool asleep = g->inverse_mass[i] == 0;
+            if ((g->inverse_mass[j] == 0) == asleep)
                 continue;
             size_t mover = asleep ? j : i, sleeper = asleep ? i : j;
             if (disturbs(s, g, rule, mover, sleeper))
@@ -115,8 +123,8 @@ void sleep_disturb(struct sleep *s, struct grains *g, const struct sleep_rule *r
         return;
     if (s->sleeping > 0)
         wake_disturbed(s, g, rule, n);
-    for (size_t i = 0; i < g->count; i++)
-        if (!s->asleep[g->id[i]] && has_moved(s, g, rule, i))
+    for (size_t i = 0; i < g->count && rule->elapsed > 0; i++)
+        if (g->inverse_mass[i] > 0 && has_moved(s, g, rule, i))
             drop_anchor(s, g, i);
 }
 
@@ -125,8 +133,10 @@ static void note_hits(struct sleep *s, const struct grains *g, const struct cont
         const struct contact *t = &c->contact[k];
         if (t->impulse == 0 || t->wall >= 0)
             continue;
-        s->hits[g->id[t->i]] += s->asleep[g->id[t->i]] ? t->impulse * t->ny : 0;
-        s->hits[g->id[t->j]] -= s->asleep[g->id[t->j]] ? t->impulse * t->ny : 0;
+        if (g->inverse_mass[t->i] == 0)
+            s->hits[g->id[t->i]] += t->impulse * t->ny;
+        if (g->inverse_mass[t->j] == 0)
+            s->hits[g->id[t->j]] -= t->impulse * t->ny;
     }
 }
 
@@ -137,13 +147,13 @@ double sleep_settle(struct sleep *s, struct grains *g, const struct sleep_rule *
         return 0;
     if (s->sleeping > 0)
         note_hits(s, g, c);
-    for (size_t i = 0; i < g->count; i++) {
+    for (size_t i = 0; i < g->count && rule->elapsed > 0; i++) {
         int32_t id = g->id[i];
         if (s->asleep[id] && g->inverse_mass[i] > 0)
             wake(s, g, i); /* the collisions gave it its mass back */
         if (s->asleep[id])
             continue;
-        s->quiet[id] += rule->dt;
+        s->quiet[id] += rule->elapsed;
         if (s->quiet[id] < rule->after || s->load[id] > -PRESSED * rule->fall)
             continue;
         taken += 0.5 * g->area[i] * (g->vx[i] * g->vx[i] + g->vy[i] * g->vy[i]);

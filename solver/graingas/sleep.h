@@ -30,15 +30,18 @@ struct sleep_rule {
     double displacement; /* (l); 0: nothing sleeps */
     double after;        /* (tau) */
     double fall;         /* gravity (l/tau^2) */
-    double dt;           /* (tau) */
+    double elapsed;      /* since the last look (tau); 0: not in this step */
 };
+
+/* Places, loads and who is quiet are looked at so often in the time `after`. */
+enum { SLEEP_LOOKS = 20 };
 
 struct sleep {
     size_t count;    /* grains */
     double *anchor;  /* place last left, anchor[2 id], anchor[2 id + 1] (l) */
     double *load;    /* running mean of the net acceleration upwards, [id] (l/tau^2) */
     double *quiet;   /* time since the anchor was set, [id] (tau) */
-    double *hits;    /* impulse upwards on a sleeper in this step, [id] (l^2 U0) */
+    double *hits;    /* impulse upwards on a sleeper since the last look, [id] (l^2 U0) */
     bool *asleep;    /* [id] */
     size_t sleeping; /* how many */
 };

@@ -112,10 +112,10 @@ START_TEST(a_neighbour_that_leaves_its_place_wakes) {
     struct graingas *s = fixture_state(pile, 1);
     fixture_steps(s, 600);
     lift(s, 0.006); /* not far enough */
-    fixture_steps(s, 1);
+    fixture_steps(s, 4);
     ck_assert(s->sleep.asleep[0] && s->sleep.asleep[1]);
-    s->grains.y[index_of(s, 4)] += 0.006;
-    fixture_steps(s, 1);
+    s->grains.y[index_of(s, 4)] += 0.018;
+    fixture_steps(s, 4); /* one of them looks */
     ck_assert(!s->sleep.asleep[0] && !s->sleep.asleep[1]);
     ck_assert(s->sleep.asleep[3]);
     graingas_model.free(s);
@@ -126,7 +126,7 @@ END_TEST
 START_TEST(lift_that_takes_the_weight_off_wakes) {
     for (int k = 0; k < 2; k++) {
         struct graingas *s = fixture_state(pile, 1);
-        struct sleep_rule rule = {.displacement = 0.01, .after = 1, .fall = 1, .dt = 0.013};
+        struct sleep_rule rule = {.displacement = 0.01, .after = 1, .fall = 1, .elapsed = 0.013};
         fixture_steps(s, 600);
         for (int n = 0; n < 90; n++) {
             double ax[5] = {0}, ay[5];
@@ -144,12 +144,12 @@ END_TEST
 
 START_TEST(hits_from_below_that_carry_a_sleeper_wake_it) {
     struct graingas *s = fixture_state(pile, 1);
-    struct sleep_rule rule = {.displacement = 0.01, .after = 1, .fall = 1, .dt = 0.013};
+    struct sleep_rule rule = {.displacement = 0.01, .after = 1, .fall = 1, .elapsed = 0.013};
     fixture_steps(s, 600);
     size_t i = index_of(s, 4);
     for (int n = 0; n < 90; n++) {
         double ax[5] = {0}, ay[5] = {0};
-        s->sleep.hits[4] = 0.98 * s->grains.area[i] * rule.dt;
+        s->sleep.hits[4] = 0.98 * s->grains.area[i] * rule.elapsed;
         sleep_hold(&s->sleep, &s->grains, &rule, ax, ay);
     }
     ck_assert(!s->sleep.asleep[4]);
