@@ -199,6 +199,31 @@ static const struct {
     {"seeds: {first", "seeds: {frist", "did you mean 'first'"},
     {"model: fake\n", "model: fake\nstart: {case: ../../etc/passwd}\n", "is no name of a case"},
     {"model: fake\n", "model: fake\nfigures: [{recipe: no-such-figure}]\n", "no such figure"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: time-sequence, tims: [1]}]\n",
+     "tims: no such key in a figure; did you mean 'times'"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: time-sequence, times: [1, 1]}]\n",
+     "times: numbers must increase"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: time-sequence, times: []}]\n",
+     "times: an empty list"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: animation, frames: 1}]\n",
+     "frames: 1 is outside"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: snapshot, times: [1]}]\n", "no such key"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: curves, of: fall, curve: sped, y: v}]\n",
+     "sped: no such curve of settling; did you mean speed"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: curves, of: fall, y: v}]\n",
+     "curve: missing"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: curves, curve: speed, y: v}]\n",
+     "`of` must name 1 observables, not 0"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: snapshot, points: {strat: random}}]\n",
+     "strat: no such parameter of this case"},
+    {"model: fake\n",
+     "model: fake\nfigures: [{recipe: snapshot, points: {start: [random, cold]}}]\n",
+     "cold: no point of any tier"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: snapshot, points: {height_l: 64.5}}]\n",
+     "figure snapshot: shows no point of tier paper"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: snapshot, tiers: [large]}]\n",
+     "the case has no tier large"},
+    {"model: fake\n", "model: fake\nfigures: [{recipe: snapshot, tiers: []}]\n", "is in no tier"},
     {"grains: 137", "grains: {a: 1}", "must be a value or a list of values"},
     {"expect: {value: 1.2, uncertainty: 0.01}", "expect: {prediction: no-such}",
      "no such prediction"},
@@ -217,6 +242,29 @@ START_TEST(every_fault_is_told_with_its_place) {
     ck_assert_int_eq(fault.status, STATUS_BAD_INPUT);
     unit_says(&fault, spoiled[_i].says);
     unit_says(&fault, "fake/steady.yaml:");
+}
+END_TEST
+
+START_TEST(a_figure_has_points_tiers_and_settings) {
+    struct fault fault;
+    struct case_file *c = load(
+        "model: fake\n",
+        "model: fake\nfigures:\n"
+        "  - {recipe: time-sequence, points: {height_l: 64.5}, tiers: [smoke], times: [.1, .3]}\n"
+        "  - {recipe: animation, every_tau: 0.7}\n",
+        &fault);
+    unit_ok(fault.status, &fault);
+    const struct case_figure *f = c->figure;
+    ck_assert_uint_eq(c->figure_count, 2);
+    ck_assert(f[0].in_tier[TIER_SMOKE] && !f[0].in_tier[TIER_PAPER]);
+    ck_assert(f[1].in_tier[TIER_SMOKE] && f[1].in_tier[TIER_PAPER]);
+    ck_assert_uint_eq(f[0].points.count, 1);
+    ck_assert_uint_eq(f[0].setting[0].count, 2);
+    ck_assert_double_eq(f[0].setting[0].numbers[1], .3);
+    ck_assert(f[1].setting[0].given && !f[1].setting[1].given);
+    ck_assert_double_eq(f[1].setting[0].number, .7);
+    ck_assert_double_eq(f[1].setting[1].number, 161); /* the standard */
+    case_free(c);
 }
 END_TEST
 
@@ -254,6 +302,7 @@ int main(void) {
     TCase *group = tcase_create("case");
     tcase_set_timeout(group, 120);
     tcase_add_test(group, a_good_case_is_read_with_its_tiers);
+    tcase_add_test(group, a_figure_has_points_tiers_and_settings);
     tcase_add_test(group, points_run_through_the_sweep_the_last_axis_fastest);
     tcase_add_test(group, a_curve_is_straight_between_its_points_and_ends_soon_after);
     tcase_add_loop_test(group, every_fault_is_told_with_its_place, 0,
