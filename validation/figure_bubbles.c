@@ -1,8 +1,9 @@
 /* figure_bubbles.c -- rise speed of every bubble against sqrt(g D_e), with the fit u = a + c x.
  *
- * One dot a bubble, one colour a point, all its seeds; the fit is drawn with the mean over seeds of
- * the measured a and c.  Dashed: a plane bubble in still surroundings, a semicircle and a cap of
- * 60 degrees, from the prediction.  `of:` names the observable.
+ * One dot a stretch of a bubble's motion, one colour a point, all its seeds; grey crosses at side
+ * walls. The fit is drawn with the mean over seeds of the measured a and c. Grey lines: a plane
+ * bubble in still surroundings, a semicircle and a cap of 60 degrees, from the prediction.  `of:`
+ * names the observable.
  *
  * Source:     Collins, J. Fluid Mech. 22, 763 (1965); docs/theory.md, "Bubbles".
  * Leaves out: bubbles that the observable did not follow long enough to have a speed.
@@ -12,14 +13,14 @@
 
 #include <math.h>
 
-enum { MAX_POINTS = 6, ANGLES = 2 };
+enum { MAX_POINTS = 6, MAX_PLACES = 1, ANGLES = 2 };
 
 struct drawing {
     const struct figure_input *in;
     struct arena *arena;
     double least, most; /* x of any bubble (U0) */
-    size_t bubbles, series_count;
-    struct report_series series[2 * MAX_POINTS + ANGLES];
+    size_t dots, series_count;
+    struct report_series series[(2 + MAX_PLACES) * MAX_POINTS + ANGLES];
 };
 
 static enum status no_memory(struct fault *fault) {
@@ -35,54 +36,80 @@ static enum status add(struct drawing *d, const char *label, enum series_style s
     return STATUS_OK;
 }
 
-static const struct curve *rise_of(const struct drawing *d, const struct measured_run *run) {
-    return run->usable ? figure_curve_find(&run->observable[d->in->observable[0]], "rise", 0)
+static const struct curve *rise_of(const struct drawing *d, const struct measured_run *run,
+                                   size_t where) {
+    return run->usable ? figure_curve_find(&run->observable[d->in->observable[0]], "rise", where)
                        : NULL;
 }
 
-/* All bubbles of a point's seeds as one series; the fit as its key says. */
-static enum status add_point(struct drawing *d, const struct measured_point *p, int colour,
-                             struct fault *fault) {
+/* What all seeds of a point saw at one place, as one series; its label from the curve or given. */
+static enum status add_dots(struct drawing *d, const struct measured_point *p, size_t where,
+                            int colour, const char *label, struct fault *fault) {
     size_t count = 0, used = 0;
     const struct curve *c;
     for (size_t i = 0; i < p->run_count; i++)
-        count += (c = rise_of(d, &p->run[i])) ? c->count : 0;
+        count += (c = rise_of(d, &p->run[i], where)) ? c->count : 0;
     if (count == 0)
         return STATUS_OK;
     double *x = arena_take(d->arena, count, sizeof *x), *y = arena_take(d->arena, count, sizeof *y);
     if (!x || !y)
         return no_memory(fault);
-    double least = INFINITY, most = 0;
-    for (size_t i = 0; i < p->run_count; i++)
-        for (size_t k = 0; (c = rise_of(d, &p->run[i])) && k < c->count; k++, used++) {
+    for (size_t i = 0; i < p->run_count; i++) {
+        c = rise_of(d, &p->run[i], where);
+        for (size_t k = 0; c && k < c->count; k++, used++) {
             x[used] = c->x[k];
             y[used] = c->y[k];
-            least = fmin(least, x[used]);
-            most = fmax(most, x[used]);
+            d->least = fmin(d->least, x[used]);
+            d->most = fmax(d->most, x[used]);
         }
-    d->bubbles += count;
-    d->least = fmin(d->least, least);
-    d->most = fmax(d->most, most);
-    const char *text = figure_point_text(d->in->data, p, NULL, d->arena);
-    enum status status =
-        add(d, text && !*text ? "bubbles" : text, SERIES_POINTS, colour, count, x, y, fault);
+        if (c && where > 0)
+            label = c->label;
+    }
+    d->dots += count;
+    return add(d, label, SERIES_POINTS, colour, count, x, y, fault);
+}
+
+/* Over the range of all dots so far. */
+static enum status add_fit(struct drawing *d, const struct measured_point *p, int colour,
+                           struct fault *fault) {
     double error, a = figure_mean(d->in, p, "rise_offset", &error);
     double slope = figure_mean(d->in, p, "rise_coefficient", &error);
     double *line = arena_take(d->arena, 4, sizeof *line);
-    if (status || !isfinite(a) || !isfinite(slope))
-        return status;
+    if (!isfinite(a) || !isfinite(slope))
+        return STATUS_OK;
     if (!line)
         return no_memory(fault);
     for (size_t i = 0; i < 2; i++) {
-        line[i] = i == 0 ? least : most;
+        line[i] = i == 0 ? d->least : d->most;
         line[2 + i] = a + slope * line[i];
     }
     return add(d, arena_text(d->arena, "u = %.2f + %.2f x", a, slope), SERIES_LINE, colour, 2, line,
                line + 2, fault);
 }
 
-static enum status add_plane(struct drawing *d, double half_angle_deg, const char *shape, int style,
-                             struct fault *fault) {
+/* All dots first: lines go over their whole range. */
+static enum status add_points(struct drawing *d, struct fault *fault) {
+    const struct measured_case *data = d->in->data;
+    enum status status = STATUS_OK;
+    bool seen[MAX_POINTS];
+    for (size_t i = 0; i < data->point_count && !status; i++) {
+        size_t before = d->dots;
+        const char *text = figure_point_text(data, &data->point[i], NULL, d->arena);
+        if (!text)
+            return no_memory(fault);
+        status = add_dots(d, &data->point[i], 0, (int)i, *text ? text : "bubbles", fault);
+        for (size_t where = 1; where <= MAX_PLACES && !status; where++)
+            status = add_dots(d, &data->point[i], where, -1, "", fault);
+        seen[i] = d->dots > before;
+    }
+    for (size_t i = 0; i < data->point_count && !status; i++)
+        if (seen[i])
+            status = add_fit(d, &data->point[i], (int)i, fault);
+    return status;
+}
+
+static enum status add_plane(struct drawing *d, double half_angle_deg, const char *shape,
+                             enum series_style style, struct fault *fault) {
     const struct prediction *rise = prediction_find("plane-bubble-rise");
     const struct prediction *coefficient = prediction_find("plane-bubble-coefficient");
     double *x = arena_take(d->arena, 4, sizeof *x);
@@ -95,7 +122,7 @@ static enum status add_plane(struct drawing *d, double half_angle_deg, const cha
     }
     return add(d,
                arena_text(d->arena, "plane %s, c = %.2f", shape, coefficient->at(&half_angle_deg)),
-               SERIES_DASHED, style, 2, x, x + 2, fault);
+               style, -1, 2, x, x + 2, fault);
 }
 
 static enum status draw(struct drawing *d, struct figure_output *out, struct fault *fault) {
@@ -111,13 +138,15 @@ static enum status draw(struct drawing *d, struct figure_output *out, struct fau
     struct report_figure f = {
         .name = arena_text(d->arena, "bubble-rise-%zu", out->figure_count + 1),
         .title = wanted->title ? wanted->title : "Rise of the bubbles against their size",
-        .caption = wanted->caption
-                       ? wanted->caption
-                       : arena_text(d->arena,
-                                    "%zu bubbles, one point each. Lines: fits u = a + c x, a and c "
-                                    "as means over seeds. Dashed: plane bubbles in still "
-                                    "surroundings; a moving bed adds its own speed.",
-                                    d->bubbles),
+        .caption =
+            wanted->caption
+                ? wanted->caption
+                : arena_text(d->arena,
+                             "%zu points, each a stretch of a bubble's motion; grey crosses: at "
+                             "a side wall, left out of the fits. Coloured lines: u = a + c "
+                             "x, a and c as means over seeds. Grey lines: plane bubbles in "
+                             "still surroundings; a moving bed adds its own speed.",
+                             d->dots),
         .alt = "Rise speed of bubbles over the root of gravity times equivalent diameter",
         .x_label = "x = sqrt(g D_e) (U0), D_e: diameter of the circle of the same area",
         .panel_count = 1,
@@ -134,14 +163,14 @@ static enum status build(const struct figure_input *in, struct figure_output *ou
                            "%zu points cannot be told apart in one figure, %d can: choose with "
                            "`points`",
                            in->data->point_count, (int)MAX_POINTS);
-    for (size_t i = 0; i < in->data->point_count && !status; i++)
-        status = add_point(&d, &in->data->point[i], (int)i, fault);
-    if (!status && d.bubbles == 0)
+    if (!status)
+        status = add_points(&d, fault);
+    if (!status && d.dots == 0)
         status = fault_set(fault, STATUS_BAD_INPUT, "no run has a bubble that rises");
     if (!status)
-        status = add_plane(&d, 90, "semicircle", -1, fault);
+        status = add_plane(&d, 90, "semicircle", SERIES_DASHED, fault);
     if (!status)
-        status = add_plane(&d, 60, "cap of 60 degrees", -2, fault);
+        status = add_plane(&d, 60, "cap of 60 degrees", SERIES_LINE, fault);
     return status ? status : draw(&d, out, fault);
 }
 

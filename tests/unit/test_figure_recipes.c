@@ -320,19 +320,22 @@ START_TEST(bubbles_their_fit_and_the_plane_bubbles_share_an_axis) {
     unit_says(&fault, "no run has a bubble that rises");
     for (size_t seed = 0; seed < 2; seed++) {
         struct measurement *m = measured(&s, 3, seed, DROPS);
-        add_curve(m, "rise", "", x, y, 3);
+        add_curve(m, "rise", "inside", x, y, 3);
+        add_curve(m, "rise", "at a side wall", y, x, 3);
         m->value[0] = .2 + .1 * (double)seed;
         m->value[1] = .43;
     }
     unit_ok(build(&s, &file, RISE, &fault), &fault);
     const struct report_panel *p = s.out->figure[0].panel;
-    ck_assert_uint_eq(p->series_count, 4);
+    ck_assert_uint_eq(p->series_count, 5);
     ck_assert_uint_eq(p->series[0].count, 6);
     ck_assert_str_eq(p->series[0].label, "flux 0.27 l/tau");
-    ck_assert_double_eq_tol(p->series[1].y[1], .25 + .43 * 2.11, 1e-12);
-    ck_assert_str_eq(p->series[1].label, "u = 0.25 + 0.43 x");
+    ck_assert_str_eq(p->series[1].label, "at a side wall");
+    ck_assert_int_eq(p->series[1].colour, -1);
+    ck_assert_double_eq_tol(p->series[2].y[1], .25 + .43 * 2.11, 1e-12);
+    ck_assert_str_eq(p->series[2].label, "u = 0.25 + 0.43 x");
     const double in[] = {2.11, 90};
-    ck_assert_double_eq(p->series[2].y[1], prediction_find("plane-bubble-rise")->at(in));
+    ck_assert_double_eq(p->series[3].y[1], prediction_find("plane-bubble-rise")->at(in));
     tear_down(&s);
 }
 END_TEST
