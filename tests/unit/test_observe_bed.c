@@ -89,6 +89,23 @@ START_TEST(the_marker_moves_with_the_plug_between_rows) {
 }
 END_TEST
 
+/* A profile that falls by .004 a row up to row 40: slab and marker are exact between rows. */
+START_TEST(a_graded_bed_is_integrated_between_its_rows) {
+    static double rho[BED_SITES];
+    struct observe_box box = {.width_l = W, .height_l = H, .nx = BED_NX, .ny = BED_NY};
+    memset(rho, 0, sizeof rho);
+    for (size_t j = 0; j <= 40; j++)
+        for (size_t i = 0; i < BED_NX; i++)
+            rho[j * BED_NX + i] = (0.6 - 0.004 * (double)j) * bed_sample_wave(i, 0.2);
+    struct bed_column c = bed_column_measure(rho, &box, 5.3);
+    double top = 40 + (0.44 - 0.26) / 0.44; /* half of the middle row's .52 */
+    ck_assert_double_eq_tol(c.top, top, 1e-9);
+    ck_assert_double_eq_tol(c.slab_fraction, 0.6 - 0.004 * top / 2, 1e-9);
+    double y = bed_column_marker(rho, &box, 1.37);
+    ck_assert_double_eq_tol(0.22 + 0.6 * (40 - y) - 0.002 * (1600 - y * y), 1.37, 1e-9);
+}
+END_TEST
+
 START_TEST(values_are_those_of_the_time_asked_for) {
     struct measurement m;
     struct fake_run f = write_run(FRAMES, 0);
@@ -137,22 +154,16 @@ START_TEST(rows_that_stay_are_the_static_layer) {
 }
 END_TEST
 
-START_TEST(layers_are_segregated_and_shuffled_grains_are_not) {
-    struct measurement m;
-    struct fake_run f = write_run(FRAMES, 4); /* layers of 1 l: those of the cells */
-    unit_ok(fake_measure(&f, "bed-motion", "at_tau", 20, &m), &f.fault);
-    ck_assert_double_eq_tol(value(&m, "mixing_start"), 0, 1e-12);
-    ck_assert_double_gt(value(&m, "mixing"), 0.05);
-    ck_assert_str_eq(m.curve[m.curve_count - 1].name, "mixing");
-    measurement_free(&m);
+/* Mean index of grains at random places, of random colour; denser to the left. */
+static double mean_mixing(size_t grains, double cell_l, int trials) {
     static double x[2 * GRAINS], radius[GRAINS], species[GRAINS];
-    struct observe_grains g = {.count = GRAINS, .frames = 1, .radius = radius, .position = x};
+    struct observe_grains g = {.count = grains, .frames = 1, .radius = radius, .position = x};
     struct observe_box box = {.width_l = W, .height_l = H, .nx = BED_NX, .ny = BED_NY};
     struct fault fault = FAULT_NONE;
     unsigned long long state = 88172645463325252ULL;
     double sum = 0, mixing;
-    for (int trial = 0; trial < 100; trial++) {
-        for (size_t k = 0; k < GRAINS; k++) { /* uneven cells: denser to the left */
+    for (int trial = 0; trial < trials; trial++) {
+        for (size_t k = 0; k < grains; k++) {
             double u[3];
             for (int n = 0; n < 3; n++) {
                 state = state * 6364136223846793005ULL + 1442695040888963407ULL;
@@ -162,10 +173,22 @@ START_TEST(layers_are_segregated_and_shuffled_grains_are_not) {
             x[2 * k + 1] = 30 * u[1];
             species[k] = u[2] < 0.3;
         }
-        unit_ok(bed_grains_mixing(NULL, &g, &box, species, 0, 1.3, &mixing, &fault), &fault);
+        unit_ok(bed_grains_mixing(NULL, &g, &box, species, 0, cell_l, &mixing, &fault), &fault);
         sum += mixing;
     }
-    ck_assert_double_eq_tol(sum / 100, 1, 0.01);
+    return sum / trials;
+}
+
+START_TEST(layers_are_segregated_and_shuffled_grains_are_not) {
+    struct measurement m;
+    struct fake_run f = write_run(FRAMES, 4); /* layers of 1 l: those of the cells */
+    unit_ok(fake_measure(&f, "bed-motion", "at_tau", 20, &m), &f.fault);
+    ck_assert_double_eq_tol(value(&m, "mixing_start"), 0, 1e-12);
+    ck_assert_double_gt(value(&m, "mixing"), 0.05);
+    ck_assert_str_eq(m.curve[m.curve_count - 1].name, "mixing");
+    measurement_free(&m);
+    ck_assert_double_eq_tol(mean_mixing(GRAINS, 1.3, 100), 1, 0.01);
+    ck_assert_double_eq_tol(mean_mixing(30, 10, 1000), 1, 0.02); /* some six cells */
 }
 END_TEST
 
@@ -211,6 +234,7 @@ int main(void) {
     const TTest *const tests[] = {a_plug_has_its_speed_peak_and_drift,
                                   the_marker_moves_with_the_plug_between_rows,
                                   values_are_those_of_the_time_asked_for,
+                                  a_graded_bed_is_integrated_between_its_rows,
                                   the_dense_floor_ends_where_its_density_does,
                                   rows_that_stay_are_the_static_layer,
                                   layers_are_segregated_and_shuffled_grains_are_not,
