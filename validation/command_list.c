@@ -166,7 +166,9 @@ static void list_recipe(FILE *out, const struct recipe *r) {
             fprintf(out, ", %g to %g", s->min, s->max);
         fprintf(out, ": %s\n", s->doc);
     }
-    fputs("    reads  ", out);
+    for (size_t i = 0; r->curves != NULL && r->curves[i] != NULL; i++)
+        fprintf(out, "%s%s", i == 0 ? "    curves  " : ", ", r->curves[i]);
+    fputs(r->curves != NULL && r->curves[0] != NULL ? "\n    reads  " : "    reads  ", out);
     for (size_t i = 0; r->datasets != NULL && r->datasets[i] != NULL; i++)
         fprintf(out, " %s", r->datasets[i]);
     fputc('\n', out);
@@ -177,6 +179,13 @@ static void list_texts(FILE *out, const char *head, const char *const *text, siz
     for (size_t i = 0; i < room && text[i] != NULL; i++)
         fprintf(out, " %s", text[i]);
     fputc('\n', out);
+}
+
+static void list_figure(FILE *out, const struct figure_recipe *f) {
+    fprintf(out, "%s: %s, draws %zu observables\n", f->name, f->title, f->observables);
+    for (size_t i = 0; i < CASE_FIGURE_SETTINGS && f->setting[i].name != NULL; i++)
+        fprintf(out, "    setting %s%s: %s\n", f->setting[i].name,
+                f->setting[i].required ? ", must be given" : "", f->setting[i].doc);
 }
 
 int command_recipes(const struct console *c) {
@@ -202,7 +211,6 @@ int command_recipes(const struct console *c) {
     const struct figure_recipe *const *figure = figure_all(&count);
     fputs("\nFigures\n\n", c->out);
     for (size_t i = 0; i < count; i++)
-        fprintf(c->out, "%s: %s, draws %zu observables\n", figure[i]->name, figure[i]->title,
-                figure[i]->observables);
+        list_figure(c->out, figure[i]);
     return 0;
 }
