@@ -55,58 +55,60 @@ enum status bed_grains_mixing(struct run_view *v, const struct observe_grains *g
     if (!all)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu cells", cells);
     double *ones = all + cells;
-    for (size_t i = 0; !status && i < g->count; i++) {
+    for (size_t i = 0; i < g->count; i++) {
         const double *x = observe_vector(g->position, g, frame, i);
         status = check_inside(v, g, box, frame, i, fault);
         if (status)
-            break;
+            goto done;
         size_t c = piece(x[1], cell_l, up) * across + piece(x[0], cell_l, across);
         all[c] += 1;
         ones[c] += species[i] != 0;
     }
-    if (!status)
-        *mixing = lacey(all, ones, cells);
+    *mixing = lacey(all, ones, cells);
+done:
     free(all);
     return status;
 }
 
 /* -- what never moved ---------------------------------------------------------- */
 
-/* count[r] grains started in row r and moved moved[r] in all (l). */
-static double static_height(const double *count, const double *moved, size_t rows, double row_l,
-                            double limit) {
-    double below = 0, height_below = 0; /* the floor does not move */
+/* count[r] grains started in row r, sum[r] is what they moved in all (l). */
+static double height_below(const double *count, const double *sum, size_t rows, double row_l,
+                           double limit) {
+    double below = 0, last = 0; /* the floor does not move */
     for (size_t r = 0; r < rows && count[r] > 0; r++) {
-        double here = moved[r] / count[r], height = ((double)r + 0.5) * row_l;
+        double here = sum[r] / count[r], height = ((double)r + 0.5) * row_l;
         if (here >= limit)
-            return height_below + (height - height_below) * (limit - below) / (here - below);
+            return last + (height - last) * (limit - below) / (here - below);
         below = here;
-        height_below = height;
+        last = height;
     }
-    return height_below > 0 ? height_below + row_l / 2 : 0;
+    return last > 0 ? last + row_l / 2 : 0;
 }
 
-enum status bed_grains_static(struct run_view *v, const struct observe_grains *g,
+enum status bed_grains_layers(struct run_view *v, const struct observe_grains *g,
                               const struct observe_box *box, size_t start, size_t end, double row_l,
-                              double moved_l, double *height, struct fault *fault) {
+                              double limit_l, struct bed_grains_layers *out, struct fault *fault) {
     size_t rows = pieces_of(box->height_l, row_l);
     enum status status = STATUS_OK;
-    double *count = calloc(2 * rows, sizeof *count);
+    double *count = calloc(3 * rows, sizeof *count);
     if (!count)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu rows", rows);
-    double *moved = count + rows;
-    for (size_t i = 0; !status && i < g->count; i++) {
+    double *moved = count + rows, *risen = moved + rows;
+    for (size_t i = 0; i < g->count; i++) {
         const double *from = observe_vector(g->position, g, start, i);
         const double *to = observe_vector(g->position, g, end, i);
         status = check_inside(v, g, box, start, i, fault);
         if (status)
-            break;
+            goto done;
         size_t r = piece(from[1], row_l, rows);
         count[r] += 1;
         moved[r] += hypot(to[0] - from[0], to[1] - from[1]);
+        risen[r] += to[1] - from[1];
     }
-    if (!status)
-        *height = static_height(count, moved, rows, row_l, moved_l);
+    out->still = height_below(count, moved, rows, row_l, limit_l);
+    out->left = height_below(count, risen, rows, row_l, limit_l);
+done:
     free(count);
     return status;
 }

@@ -11,9 +11,10 @@
  * all permutations).  Layers that end inside a cell count as mixed: a start has its
  * own M, above 0.
  *
- * The static layer is how far up from the floor rows of grains have moved, on
- * average, less than a limit; straight between the middles of two rows, and from
- * 0 at the floor.
+ * The static layer is how far up from the floor the grains of a row have moved, on
+ * average, less than a limit; the layer left behind, how far up rows have risen less:
+ * its grains may be pushed about, but it stays. Both straight between the middles of
+ * two rows, and from 0 at the floor.
  *
  * Source:     P. M. C. Lacey, J. Appl. Chem. 4, 257 (1954); docs/theory.md.
  * Leaves out: mixing below the size of a cell.
@@ -29,9 +30,13 @@ enum status bed_grains_mixing(struct run_view *v, const struct observe_grains *g
                               const struct observe_box *box, const double *species, size_t frame,
                               double cell_l, double *mixing, struct fault *fault);
 
-/* Height (l) up to which rows of row_l at the start have moved less than moved_l. */
-enum status bed_grains_static(struct run_view *v, const struct observe_grains *g,
+struct bed_grains_layers {
+    double still; /* up to here rows have moved less than the limit (l) */
+    double left;  /* up to here they have risen less (l) */
+};
+/* Rows of row_l by the positions at the start frame. */
+enum status bed_grains_layers(struct run_view *v, const struct observe_grains *g,
                               const struct observe_box *box, size_t start, size_t end, double row_l,
-                              double moved_l, double *height, struct fault *fault);
+                              double limit_l, struct bed_grains_layers *out, struct fault *fault);
 
 #endif

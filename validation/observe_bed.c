@@ -5,7 +5,8 @@
  * the height above which lie 2 l of solid: the plug's upper part), the largest top since injection
  * began, and what the top still does at the end (slope over the last end_tau, times end_tau).  The
  * slab's fraction is the mean between margin_l and top - margin_l.  From the grains (bed_grains.h):
- * how well the two colours are mixed, and which layer at the floor has not moved.
+ * how well the two colours are mixed, which layer at the floor has not moved, which has
+ * not risen.
  *
  * The dense layer is read off the profile, averaged over the last end_tau: from the
  * densest row within 3 l of the floor up to where it falls below 1.05 times the
@@ -36,6 +37,7 @@ enum {
     MIXING,
     MIXING_START,
     STATIC_LAYER,
+    LEFT_LAYER,
     DENSE_LAYER
 };
 
@@ -226,6 +228,7 @@ static enum status conclude_grains(struct task *k, const struct observe_grains *
     if (!observe_reaches(g->series, at)) {
         observe_none(k->out, MIXING, "the grains were not sampled up to %g tau", at);
         observe_none(k->out, STATIC_LAYER, "the grains were not sampled up to %g tau", at);
+        observe_none(k->out, LEFT_LAYER, "the grains were not sampled up to %g tau", at);
         return STATUS_OK;
     }
     enum status status =
@@ -233,11 +236,17 @@ static enum status conclude_grains(struct task *k, const struct observe_grains *
     if (status)
         return status;
     value[MIXING] = mixing[end];
-    if (end > start)
-        return bed_grains_static(k->view, g, &k->box, start, end, k->settings[ROW_L],
-                                 k->settings[MOVED_L], &value[STATIC_LAYER], fault);
-    observe_none(k->out, STATIC_LAYER, "%g tau is not after injection has begun", at);
-    return STATUS_OK;
+    if (end <= start) {
+        observe_none(k->out, STATIC_LAYER, "%g tau is not after injection has begun", at);
+        observe_none(k->out, LEFT_LAYER, "%g tau is not after injection has begun", at);
+        return STATUS_OK;
+    }
+    struct bed_grains_layers layers = {NAN, NAN};
+    status = bed_grains_layers(k->view, g, &k->box, start, end, k->settings[ROW_L],
+                               k->settings[MOVED_L], &layers, fault);
+    value[STATIC_LAYER] = layers.still;
+    value[LEFT_LAYER] = layers.left;
+    return status;
 }
 
 static enum status measure_grains(struct task *k, struct fault *fault) {
@@ -333,6 +342,7 @@ const struct recipe recipe_bed_motion = {
                {"mixing", "1", "Lacey's index at at_tau: 0 segregated, 1 random"},
                {"mixing_start", "1", "the same when injection began"},
                {"static_layer", "l", "height up to which rows have hardly moved by at_tau"},
+               {"left_layer", "l", "height up to which rows have hardly risen by at_tau"},
                {"dense_layer", "l", "height up to which the floor's layer is 1.05 times as dense"}},
     .curves = CURVES,
     .measure = measure,

@@ -146,6 +146,7 @@ START_TEST(rows_that_stay_are_the_static_layer) {
     unit_ok(fake_measure(&f, "bed-motion", "at_tau", 20, &m), &f.fault);
     /* .03 (y - .6) 19 = .25 */
     ck_assert_double_eq_tol(value(&m, "static_layer"), 0.6 + 0.25 / 0.57, 1e-9);
+    ck_assert_double_eq_tol(value(&m, "left_layer"), 0.6 + 0.25 / (0.57 * sqrt(0.9964)), 1e-9);
     measurement_free(&m);
     f = write_run(FRAMES, 0); /* half the time: the layer reaches farther up */
     unit_ok(fake_measure(&f, "bed-motion", "at_tau", 10, &m), &f.fault);
