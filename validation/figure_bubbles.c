@@ -120,8 +120,7 @@ static enum status add_plane(struct drawing *d, double half_angle_deg, const cha
         x[i] = in[0];
         x[2 + i] = rise->at(in);
     }
-    return add(d,
-               arena_text(d->arena, "plane %s, c = %.2f", shape, coefficient->at(&half_angle_deg)),
+    return add(d, arena_text(d->arena, "%s, c = %.2f", shape, coefficient->at(&half_angle_deg)),
                style, -1, 2, x, x + 2, fault);
 }
 
@@ -170,7 +169,7 @@ static enum status build(const struct figure_input *in, struct figure_output *ou
     if (!status)
         status = add_plane(&d, 90, "semicircle", SERIES_DASHED, fault);
     if (!status)
-        status = add_plane(&d, 60, "cap of 60 degrees", SERIES_LINE, fault);
+        status = add_plane(&d, 60, "cap of 60°", SERIES_LINE, fault);
     return status ? status : draw(&d, out, fault);
 }
 

@@ -9,6 +9,7 @@
  */
 #include "validation/figure_recipes.h"
 
+#include <ctype.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 #include <string.h>
@@ -20,8 +21,10 @@ struct drawing {
     const struct figure_input *in;
     struct arena *arena;
     const char *name; /* of the curve */
-    size_t points, series_count;
-    bool averaged, single;        /* some point is a mean; some is drawn seed by seed */
+    size_t series_count;
+    size_t first, drawn;   /* number of the point's first colour; curves of the point so far */
+    size_t others;         /* curves so far of points that have several of the name */
+    bool averaged, single; /* some point is a mean; some is drawn seed by seed */
     struct report_series *series; /* series[0 .. series_count-1], room for MAX_SERIES */
 };
 
@@ -57,12 +60,13 @@ static bool have_same_abscissae(const struct curve *const *curve, size_t count) 
 }
 
 static struct report_series *next_series(struct drawing *d, const char *label) {
+    size_t number = d->first + d->drawn;
     if (d->series_count == MAX_SERIES)
         return NULL;
     struct report_series *s = &d->series[d->series_count++];
     *s = (struct report_series){.label = label,
-                                .style = d->points < COLOURS ? SERIES_LINE : SERIES_DASHED,
-                                .colour = (int)(d->points % COLOURS)};
+                                .style = number < COLOURS ? SERIES_LINE : SERIES_DASHED,
+                                .colour = (int)(number % COLOURS)};
     return s;
 }
 
@@ -114,24 +118,38 @@ static const char *label_of(struct drawing *d, const struct measured_point *p,
     return arena_text(d->arena, "%s%s%s", text, *text ? ", " : "", c->label);
 }
 
+/* A point has the colour of its place among the points, whether those before it have the curve or
+ * not: the same in all figures of these points. */
 static enum status add_point(struct drawing *d, const struct measured_point *p,
                              struct fault *fault) {
     const struct curve *curve[MAX_SEEDS], *more[MAX_SEEDS];
     enum status status = STATUS_OK;
     bool several = collect(d, p, 1, more) > 0;
+    d->first = several ? d->others : (size_t)(p - d->in->data->point);
+    d->drawn = 0;
     for (size_t nth = 0, count; !status && (count = collect(d, p, nth, curve)) > 0; nth++) {
         const char *label = label_of(d, p, curve[0], several);
         if (!label)
             return no_memory(fault);
-        if (d->points == MAX_POINTS)
+        if (d->first + d->drawn >= MAX_POINTS)
             return fault_set(fault, STATUS_BAD_INPUT,
                              "more than %d curves cannot be told apart: choose with `points`",
                              (int)MAX_POINTS);
         status = have_same_abscissae(curve, count) ? add_mean(d, curve, count, label, fault)
                                                    : add_each(d, curve, count, label, fault);
-        d->points++;
+        d->drawn++;
     }
+    d->others += several ? d->drawn : 0;
     return status;
+}
+
+static const char *title_of(const struct drawing *d) {
+    if (d->in->wanted->title)
+        return d->in->wanted->title;
+    char *title = arena_copy(d->arena, d->name);
+    if (title)
+        title[0] = (char)toupper((unsigned char)title[0]);
+    return title;
 }
 
 static const char *caption_of(const struct drawing *d) {
@@ -164,14 +182,14 @@ static enum status build(const struct figure_input *in, struct figure_output *ou
         .y_label = setting[Y_LABEL].text, .series_count = d.series_count, .series = d.series};
     struct report_figure f = {
         .name = arena_text(d.arena, "curves-%zu", out->figure_count + 1),
-        .title = in->wanted->title ? in->wanted->title : d.name,
+        .title = title_of(&d),
         .caption = caption_of(&d),
         .alt = arena_text(d.arena, "%s over %s", d.name,
                           setting[X_LABEL].text ? setting[X_LABEL].text : "time"),
         .x_label = setting[X_LABEL].text ? setting[X_LABEL].text : "time (tau)",
         .panel_count = 1,
         .panel = panel};
-    if (!f.name || !f.caption || !f.alt)
+    if (!f.name || !f.title || !f.caption || !f.alt)
         return no_memory(fault);
     return figure_add(out, &f, fault);
 }

@@ -141,9 +141,9 @@ static enum status add_break(struct drawing *d, const struct measured_point *p, 
     double error, q = figure_mean(d->in, p, "q_mf_up", &error);
     if (!isfinite(q))
         return STATUS_OK;
-    const char *text = error > 0 ? arena_text(d->arena, "break at %.4f ± %.4f l/tau", q, error)
-                                 : arena_text(d->arena, "break at %.4f l/tau", q);
-    return add(d, text ? label_of(d, p, text) : NULL, SERIES_LINE_POINTS, (int)(point * WAYS), 2,
+    const char *text = error > 0 ? arena_text(d->arena, "break: %.4f ± %.4f", q, error)
+                                 : arena_text(d->arena, "break: %.4f", q);
+    return add(d, text ? label_of(d, p, text) : NULL, SERIES_LINE, (int)(point * WAYS), 2,
                pair(d, q, q), height, fault);
 }
 
@@ -165,9 +165,7 @@ static enum status add_expected(struct drawing *d, struct fault *fault) {
         return no_memory(fault);
     x[1] = q;
     x[2] = fmax(d->largest_flux, q);
-    return add(d,
-               arena_text(d->arena, "expected, q_mf = %.4f l/tau at fraction %.3f", q, sum / count),
-               SERIES_DASHED, -1, 3, x, ratio, fault);
+    return add(d, arena_text(d->arena, "expected: %.4f", q), SERIES_DASHED, -1, 3, x, ratio, fault);
 }
 
 static enum status draw(struct drawing *d, struct figure_output *out, struct fault *fault) {
@@ -199,8 +197,8 @@ static enum status draw(struct drawing *d, struct figure_output *out, struct fau
                        : "The gas carries the bed from the break on: below it the drop grows with "
                          "the flux, above it equals the weight. Points: means over the end of each "
                          "step, every seed; lines: fitted below and above; upright: the break on "
-                         "the way up. Dashed: what the permeability at the measured solid fraction "
-                         "gives.",
+                         "the way up, in l/tau. Dashed: what the permeability at the measured "
+                         "solid fraction gives.",
         .alt = "Pressure drop over weight against the flux through the bed",
         .x_label = "flux less the bed's own speed, q - u (l/tau)",
         .panel_count = 1,

@@ -277,7 +277,7 @@ START_TEST(the_break_is_marked_and_the_law_at_the_measured_fraction_drawn) {
     ck_assert_double_eq(p->series[1].x[1], .0641);
     ck_assert_double_eq(p->series[3].x[1], q);
     ck_assert_double_eq(p->series[3].y[1], 1);
-    says(p->series[4].label, "break at 0.0641 l/tau");
+    says(p->series[4].label, "break: 0.0641");
     ck_assert_double_eq(p->series[4].x[0], .0641);
     char ratio[32];
     snprintf(ratio, sizeof ratio, "%.4f", .0641 / q);
