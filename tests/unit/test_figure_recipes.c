@@ -24,9 +24,12 @@ static const char text[] =
     "  - {recipe: fluidization-curve, of: drop}\n"
     "  - {recipe: bubble-rise, of: drop, points: {darcy: corrected}}\n"
     "  - {recipe: curves, of: fall, curve: density profile, x: height (l), y: fraction}\n"
+    "  - {recipe: settling-curve, of: fall}\n"
+    "  - {recipe: snapshot, points: {darcy: corrected}}\n"
     "tiers: {smoke: {}}\n";
 
-enum { PANELS, BETWEEN, SPREAD, MOVIE, SPEED, DROP, TWO_LAWS, RISE, NO_CURVE, FIGURES };
+enum { PANELS, BETWEEN, SPREAD, MOVIE, SPEED, DROP, TWO_LAWS, RISE, NO_CURVE, SETTLING, SNAPSHOT };
+enum { NX = 8, NY = 13 }; /* sites of the box */
 enum { GRAINS = 5, FRAMES = 11, OBSERVABLES = 3, FALL = 1, DROPS = 2 };
 
 /* Four points of two seeds each; the first seed of all is unusable. */
@@ -53,6 +56,10 @@ static void write_run(struct fake_run *f, const char *darcy) {
     fake_array(f, "particles/grains/radius", radius, GRAINS);
     fake_array(f, "particles/grains/species", species, GRAINS);
     for (int frame = 0; frame < FRAMES; frame++) {
+        double field[NX * NY];
+        for (int i = 0; i < NX * NY; i++) /* the same everywhere: interpolated to itself */
+            field[i] = .013 * frame + (darcy[0] == 'c' ? .2 : .1);
+        fake_field(f, "fields/solid_fraction", NX, NY, field, .1 * frame, .0125);
         for (int i = 0; i < 2 * GRAINS; i++)
             position[i] = .37 + .613 * i + .01 * frame;
         fake_vectors(f, "particles/grains/position", GRAINS, position, .1 * frame, .0125);
@@ -301,6 +308,53 @@ START_TEST(two_laws_are_two_figures) {
 }
 END_TEST
 
+/* -- settling --------------------------------------------------------------- */
+
+START_TEST(settling_speeds_are_drawn_over_their_own_law) {
+    static const double rho[] = {.4137, .4273}, speed[] = {.351, .377};
+    struct stage s;
+    struct fault fault;
+    set_up(&s);
+    const struct recipe *r = s.c->observable[FALL].recipe;
+    for (size_t p = 0; p < 4; p++)
+        for (size_t seed = 0; seed < 2; seed++)
+            for (size_t i = 0; i < RECIPE_MAX_OUTPUTS; i++)
+                measured(&s, p, seed, FALL)->value[i] = NAN;
+    for (size_t seed = 0; seed < 2; seed++) { /* corrected, the first flux */
+        set_output(measured(&s, 2, seed, FALL), r, "solid_fraction", rho[seed]);
+        set_output(measured(&s, 2, seed, FALL), r, "speed", speed[seed]);
+    }
+    unit_ok(build(&s, s.c, SETTLING, &fault), &fault);
+    const struct report_panel *p = s.out->figure[0].panel;
+    const struct prediction *own = prediction_find("settling-own-law-corrected");
+    double factor = 0;
+    for (size_t seed = 0; seed < 2; seed++)
+        factor += speed[seed] / own->at((const double[]){rho[seed], .25}) / 2;
+    ck_assert_uint_eq(p[0].series[0].count, 1);
+    ck_assert_double_eq_tol(p[0].series[0].x[0], .4205, 1e-12);
+    ck_assert_double_eq_tol(p[0].series[0].y[0], .364, 1e-12);
+    ck_assert_double_eq_tol(p[1].series[0].y[0], factor, 1e-12);
+    ck_assert_uint_eq(s.out->table[0].rows, 1);
+    ck_assert_str_eq(s.out->table[0].cell[0], "corrected");
+    tear_down(&s);
+}
+END_TEST
+
+START_TEST(a_snapshot_is_shaded_by_the_solid_fraction_at_each_grain) {
+    struct stage s;
+    struct fault fault;
+    set_up(&s);
+    unit_ok(build(&s, s.c, SNAPSHOT, &fault), &fault);
+    const struct report_picture *p = &s.out->picture[0];
+    ck_assert_uint_eq(p->count, GRAINS);
+    ck_assert_double_eq_tol(p->x[3], .37 + .613 * 6 + .1, 1e-12); /* the last frame, 1 tau */
+    for (int i = 0; i < GRAINS; i++)
+        ck_assert_double_eq_tol(p->shade[i] * .6, .33, 1e-12);
+    says(p->caption, s.m->point[2].run[0].run->name);
+    tear_down(&s);
+}
+END_TEST
+
 /* -- bubbles ---------------------------------------------------------------- */
 
 START_TEST(bubbles_their_fit_and_the_plane_bubbles_share_an_axis) {
@@ -362,6 +416,8 @@ int main(void) {
                                   the_break_is_marked_and_the_law_at_the_measured_fraction_drawn,
                                   two_laws_are_two_figures,
                                   bubbles_their_fit_and_the_plane_bubbles_share_an_axis,
+                                  settling_speeds_are_drawn_over_their_own_law,
+                                  a_snapshot_is_shaded_by_the_solid_fraction_at_each_grain,
                                   names_of_parameters_become_quantities,
                                   NULL};
     return unit_run("figure_recipes", tests);
