@@ -127,7 +127,12 @@ size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *
 void case_free(struct case_file *c) {
     if (c == NULL)
         return;
+    case_free(c->runs);
     yaml_free(c->document);
     arena_free(&c->arena);
     free(c);
+}
+
+const struct case_file *case_runs(const struct case_file *c) {
+    return c->runs != NULL ? c->runs : c;
 }

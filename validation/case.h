@@ -172,6 +172,7 @@ struct case_tier { /* everything of one tier, overrides applied */
 struct case_file {
     struct arena arena;
     struct yaml_document *document;
+    struct case_file *runs; /* `runs_of:` the case whose runs it reads, or NULL */
     const char *path, *name, *title, *source, *question, *model;
     const char *large_only; /* why there is no smoke tier, or NULL */
     size_t tag_count, observable_count, across_count, figure_count, dataset_count;
@@ -188,6 +189,9 @@ struct case_file {
 enum status case_load(const char *folder, const char *name, struct case_file **out,
                       struct fault *fault);
 void case_free(struct case_file *c); /* NULL is allowed */
+
+/* The case that names and describes its runs: itself, or the one it reads them from. */
+const struct case_file *case_runs(const struct case_file *c);
 
 const char *case_tier_name(enum tier t);
 enum status case_tier_find(const char *name, enum tier *out, struct fault *fault);

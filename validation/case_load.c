@@ -19,12 +19,13 @@ static const struct schema_field case_fields[] = {
     {"also_write", SCHEMA_LIST, false, 0, 0, NULL},
     {"parameters", SCHEMA_MAP, false, 0, 0, NULL},
     {"sweep", SCHEMA_MAP, false, 0, 0, NULL},
-    {"samples", SCHEMA_ANY, true, 0, 0, NULL},
+    {"runs_of", SCHEMA_TEXT, false, 0, 0, NULL},
+    {"samples", SCHEMA_ANY, false, 0, 0, NULL},
     {"particle_samples", SCHEMA_ANY, false, 0, 0, NULL},
     {"start", SCHEMA_MAP, false, 0, 0, NULL},
     {"seeds", SCHEMA_MAP, false, 0, 0, NULL},
     {"limit_s", SCHEMA_REAL, false, 0.01, 1e7, NULL},
-    {"expect_s", SCHEMA_REAL, true, 0.001, 1e6, NULL},
+    {"expect_s", SCHEMA_REAL, false, 0.001, 1e6, NULL},
     {"observables", SCHEMA_MAP, true, 0, 0, NULL},
     {"across", SCHEMA_MAP, false, 0, 0, NULL},
     {"checks", SCHEMA_LIST, true, 0, 0, NULL},
@@ -229,22 +230,69 @@ static void collect_datasets(struct case_reader *r) {
     c->dataset_count = kept;
 }
 
-static void read_case(struct case_reader *r, const char *name) {
+static enum status load(const char *folder, const char *name, bool borrowed, struct case_file **out,
+                        struct fault *fault);
+
+/* A case describes its runs, or reads those of another, and then nothing else. */
+static void read_runs_of(struct case_reader *r, const char *folder) {
+    static const char *const required[] = {"samples", "expect_s"};
+    static const char *const own[] = {"parameters",       "sweep",    "samples",
+                                      "particle_samples", "start",    "seeds",
+                                      "limit_s",          "expect_s", "also_write"};
+    const struct yaml_node *of = yaml_get(r->root, "runs_of");
+    r->runs = r->root;
+    for (size_t i = 0; of == NULL && i < sizeof required / sizeof *required; i++)
+        if (yaml_get(r->root, required[i]) == NULL)
+            case_read_fault(r, r->root, "%s: missing", required[i]);
+    if (of == NULL || of->kind != YAML_SCALAR)
+        return;
+    if (r->borrowed) {
+        case_read_fault(r, of, "runs_of: another case reads its runs, so they must be its own");
+        return;
+    }
+    for (size_t i = 0; i < sizeof own / sizeof *own; i++)
+        if (yaml_get(r->root, own[i]) != NULL)
+            case_read_fault(r, yaml_get(r->root, own[i]), "%s: the runs are those of %s", own[i],
+                            of->text);
+    struct fault found = FAULT_NONE;
+    if (load(folder, of->text, true, &r->c->runs, &found) != STATUS_OK) {
+        case_read_merge(r, &found);
+        case_read_fault(r, of, "runs_of: case %s cannot be read", of->text);
+    } else if (r->c->model != NULL && strcmp(r->c->model, r->c->runs->model) != 0)
+        case_read_fault(r, of, "runs_of: %s is of model %s", of->text, r->c->runs->model);
+    if (r->c->runs != NULL)
+        r->runs = yaml_root(r->c->runs->document);
+}
+
+/* What its observables read must be in the runs that another case describes. */
+static void check_runs_hold(struct case_reader *r) {
+    const struct case_file *of = r->c->runs;
+    for (size_t i = 0; of != NULL && i < r->c->dataset_count; i++)
+        if (of->dataset_count == 0 || bsearch(&r->c->dataset[i], of->dataset, of->dataset_count,
+                                              sizeof *of->dataset, by_text) == NULL)
+            case_read_fault(r, yaml_get(r->root, "runs_of"),
+                            "runs_of: the runs of %s do not hold %s; its also_write can ask for it",
+                            of->name, r->c->dataset[i]);
+}
+
+static void read_case(struct case_reader *r, const char *folder, const char *name) {
     if (r->root->kind != YAML_MAP) {
         case_read_fault(r, r->root, "a case is a map of keys");
         return;
     }
     case_read_fields(r, r->root, "case", case_fields, sizeof case_fields / sizeof *case_fields);
     read_texts(r, name);
+    read_runs_of(r, folder);
     case_read_parts(r);
     collect_datasets(r);
+    check_runs_hold(r);
     read_tiers(r);
     if (r->fault->status == STATUS_OK)
         refuse_unused(r);
 }
 
-enum status case_load(const char *folder, const char *name, struct case_file **out,
-                      struct fault *fault) {
+static enum status load(const char *folder, const char *name, bool borrowed, struct case_file **out,
+                        struct fault *fault) {
     *out = NULL;
     if (!case_name_is_safe(name))
         return fault_set(fault, STATUS_BAD_INPUT, "case %s: not a name of a case", name);
@@ -256,8 +304,9 @@ enum status case_load(const char *folder, const char *name, struct case_file **o
     if (c->path == NULL)
         fault_set(&found, STATUS_NO_MEMORY, "case %s: out of memory", name);
     else if (yaml_load(c->path, YAML_CASE_MAX_BYTES, &c->document, &found) == STATUS_OK) {
-        struct case_reader r = {.c = c, .root = yaml_root(c->document), .fault = &found};
-        read_case(&r, name);
+        struct case_reader r = {
+            .c = c, .root = yaml_root(c->document), .fault = &found, .borrowed = borrowed};
+        read_case(&r, folder, name);
     }
     if (found.status == STATUS_OK) {
         *out = c;
@@ -266,4 +315,9 @@ enum status case_load(const char *folder, const char *name, struct case_file **o
     case_free(c);
     *fault = found;
     return found.status;
+}
+
+enum status case_load(const char *folder, const char *name, struct case_file **out,
+                      struct fault *fault) {
+    return load(folder, name, false, out, fault);
 }

@@ -25,7 +25,9 @@ struct case_mark { /* a filter's value or a table's entry: used by some point? *
 struct case_reader {
     struct case_file *c;
     const struct yaml_node *root;
+    const struct yaml_node *runs; /* where the runs are described: root, or `runs_of`'s root */
     struct fault *fault;
+    bool borrowed; /* read for the sake of its runs */
     bool *observable_used, *across_used; /* one flag each */
     struct case_mark *mark;
     size_t mark_count;

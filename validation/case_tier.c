@@ -24,7 +24,7 @@ static const struct schema_field tier_fields[] = {
 static const struct yaml_node *get(struct case_reader *r, const struct yaml_node *over,
                                    const char *key) {
     const struct yaml_node *n = yaml_get(over, key);
-    return n != NULL ? n : yaml_get(r->root, key);
+    return n != NULL ? n : yaml_get(r->runs, key);
 }
 
 static const struct yaml_node *get_map(const struct yaml_node *from, const char *key) {
@@ -92,8 +92,8 @@ static bool has(const struct yaml_node *map, const char *key) {
  * the same for the sweep.  A parameter that a tier fixes is swept no more. */
 static void read_parameters(struct case_reader *r, const struct yaml_node *over,
                             struct case_tier *t) {
-    const struct yaml_node *fixed[] = {get_map(r->root, "parameters"), get_map(over, "parameters")};
-    const struct yaml_node *swept[] = {get_map(r->root, "sweep"), get_map(over, "sweep")};
+    const struct yaml_node *fixed[] = {get_map(r->runs, "parameters"), get_map(over, "parameters")};
+    const struct yaml_node *swept[] = {get_map(r->runs, "sweep"), get_map(over, "sweep")};
     size_t room = 0;
     for (int level = 0; level < 2; level++) {
         refuse_both(r, fixed[level], swept[level]);
@@ -242,7 +242,7 @@ static void read_seeds(struct case_reader *r, const struct yaml_node *over,
     static const struct schema_field field[] = {{"first", SCHEMA_INTEGER, false, 0, 1e15, NULL},
                                                 {"count", SCHEMA_ANY, false, 0, 0, NULL}};
     const struct yaml_node *first = NULL, *count = NULL;
-    const struct yaml_node *level[] = {get_map(r->root, "seeds"), get_map(over, "seeds")};
+    const struct yaml_node *level[] = {get_map(r->runs, "seeds"), get_map(over, "seeds")};
     for (int i = 0; i < 2; i++) {
         if (level[i] == NULL)
             continue;
@@ -288,9 +288,26 @@ static void read_limits(struct case_reader *r, const struct yaml_node *over, str
         case_read_fault(r, limit, "limit_s: %g is less than expect_s, %g", t->limit_s, t->expect_s);
 }
 
-void case_read_tier(struct case_reader *r, enum tier tier, const struct yaml_node *over) {
+/* Where the runs of the tier are described: here, or in the case that they are of. */
+static const struct yaml_node *find_runs(struct case_reader *r, enum tier tier,
+                                         const struct yaml_node *over) {
+    const struct case_file *of = r->c->runs;
+    if (of == NULL)
+        return over;
+    for (size_t i = 0; i < over->count; i++)
+        if (strcmp(over->child[i].key, "checks") != 0)
+            case_read_fault(r, &over->child[i], "%s: the runs are those of %s", over->child[i].key,
+                            of->name);
+    if (!of->tier[tier].present)
+        case_read_fault(r, over, "%s: %s, whose runs it reads, has no such tier",
+                        case_tier_name(tier), of->name);
+    return of->tier[tier].present ? of->tier[tier].node : over;
+}
+
+void case_read_tier(struct case_reader *r, enum tier tier, const struct yaml_node *own) {
     struct case_tier *t = &r->c->tier[tier];
-    case_read_fields(r, over, "tier", tier_fields, sizeof tier_fields / sizeof *tier_fields);
+    case_read_fields(r, own, "tier", tier_fields, sizeof tier_fields / sizeof *tier_fields);
+    const struct yaml_node *over = find_runs(r, tier, own);
     read_parameters(r, over, t);
     count_points(r, t);
     read_samples(r, get(r, over, "samples"), &t->samples);

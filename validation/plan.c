@@ -49,7 +49,7 @@ static enum status fill_place(struct planner *pl, const struct case_file *file, 
     if (p == NULL)
         return no_memory(pl);
     case_point(t, point, p);
-    *out = (struct place){file, t, name_point(&pl->plan->arena, t, p), p, count};
+    *out = (struct place){case_runs(file), t, name_point(&pl->plan->arena, t, p), p, count};
     return out->point == NULL ? no_memory(pl) : STATUS_OK;
 }
 
