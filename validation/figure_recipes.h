@@ -11,5 +11,6 @@ extern const struct figure_recipe figure_sequence_animation; /* figure_sequence.
 extern const struct figure_recipe figure_curves;             /* figure_curves.c */
 extern const struct figure_recipe figure_fluidization_curve; /* figure_fluidization.c */
 extern const struct figure_recipe figure_bubble_rise;        /* figure_bubbles.c */
+extern const struct figure_recipe figure_outputs;            /* figure_outputs.c */
 
 #endif

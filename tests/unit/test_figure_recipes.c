@@ -26,9 +26,10 @@ static const char text[] =
     "  - {recipe: curves, of: fall, curve: density profile, x: height (l), y: fraction}\n"
     "  - {recipe: settling-curve, of: fall}\n"
     "  - {recipe: snapshot, points: {darcy: corrected}}\n"
+    "  - {recipe: outputs, of: fall, points: {darcy: corrected}}\n"
     "tiers: {smoke: {}}\n";
 
-enum { PANELS, BETWEEN, SPREAD, MOVIE, SPEED, DROP, TWO_LAWS, RISE, NO_CURVE, SETTLING, SNAPSHOT };
+enum { PANELS, BETWEEN, SPREAD, MOVIE, SPEED, DROP, TWO_LAWS, RISE, NO_CURVE, SETTLING, SNAPSHOT, OUTPUTS };
 enum { NX = 8, NY = 13 }; /* sites of the box */
 enum { GRAINS = 5, FRAMES = 11, OBSERVABLES = 3, FALL = 1, DROPS = 2 };
 
@@ -340,6 +341,32 @@ START_TEST(settling_speeds_are_drawn_over_their_own_law) {
 }
 END_TEST
 
+START_TEST(a_table_shows_every_output_that_some_point_has) {
+    static const double speed[] = {.351, .377};
+    struct stage s;
+    struct fault fault;
+    set_up(&s);
+    const struct recipe *r = s.c->observable[FALL].recipe;
+    for (size_t p = 0; p < 4; p++)
+        for (size_t seed = 0; seed < 2; seed++)
+            for (size_t i = 0; i < RECIPE_MAX_OUTPUTS; i++)
+                measured(&s, p, seed, FALL)->value[i] = NAN;
+    ck_assert_int_eq(build(&s, s.c, OUTPUTS, &fault), STATUS_BAD_INPUT);
+    unit_says(&fault, "fall gives nothing at any point");
+    for (size_t seed = 0; seed < 2; seed++)
+        set_output(measured(&s, 3, seed, FALL), r, "speed", speed[seed]);
+    unit_ok(build(&s, s.c, OUTPUTS, &fault), &fault);
+    const struct report_table *t = &s.out->table[0];
+    ck_assert_uint_eq(t->rows, 1);
+    ck_assert_uint_eq(t->columns, 3);
+    ck_assert_str_eq(t->heading[1], "flux 0.13 l/tau");
+    ck_assert_str_eq(t->cell[0], "speed (U0)");
+    ck_assert_str_eq(t->cell[1], "-");
+    ck_assert_str_eq(t->cell[2], "0.364 ± 0.013");
+    tear_down(&s);
+}
+END_TEST
+
 START_TEST(a_snapshot_is_shaded_by_the_solid_fraction_at_each_grain) {
     struct stage s;
     struct fault fault;
@@ -417,6 +444,7 @@ int main(void) {
                                   two_laws_are_two_figures,
                                   bubbles_their_fit_and_the_plane_bubbles_share_an_axis,
                                   settling_speeds_are_drawn_over_their_own_law,
+                                  a_table_shows_every_output_that_some_point_has,
                                   a_snapshot_is_shaded_by_the_solid_fraction_at_each_grain,
                                   names_of_parameters_become_quantities,
                                   NULL};
