@@ -150,8 +150,12 @@ static int character_count(const char *text) {
     return count;
 }
 
+/* Hundreds of points hide each other: they become small. */
+enum { CROWD = 150 };
+
 static void put_style(FILE *out, const struct report_series *s, double size) {
     const char *colour = colour_of(s->colour);
+    size *= s->count > CROWD ? 0.4 : 1;
     switch (s->style) {
     case SERIES_POINTS:
         fprintf(out, "points pt %d ps %.2g lc rgb '%s'", shape_of(s->colour), size, colour);

@@ -18,6 +18,7 @@ static void graingas_free(void *state) {
     gas_free(&s->gas);
     contacts_free(&s->contacts);
     sleep_free(&s->sleep);
+    free(s->flux_schedule);
     free(s->ax);
     free(s->ay);
     free(s->scratch);
@@ -48,13 +49,18 @@ static enum status graingas_create(void **state, const struct parameter_set *p,
                         fault) != STATUS_OK ||
         sleep_create(&s->sleep, &s->grains, fault) != STATUS_OK)
         goto failed;
+    size_t fluxes = v->flux_schedule.count;
+    s->flux_schedule = calloc(fluxes + 1, sizeof *s->flux_schedule);
     s->ax = calloc(v->grains + 1, sizeof *s->ax);
     s->ay = calloc(v->grains + 1, sizeof *s->ay);
     s->scratch = calloc(4 * v->grains + 4, sizeof *s->scratch);
-    if (!s->ax || !s->ay || !s->scratch) {
+    if (!s->flux_schedule || !s->ax || !s->ay || !s->scratch) {
         fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu grains", v->grains);
         goto failed;
     }
+    if (fluxes > 0)
+        memcpy(s->flux_schedule, v->flux_schedule.value, fluxes * sizeof *s->flux_schedule);
+    s->parameters.flux_schedule.value = s->flux_schedule;
     if (start_make(&s->grains, v, start, seed, &s->start_collisions, fault) != STATUS_OK)
         goto failed;
     notice_step(s);

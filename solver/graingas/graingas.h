@@ -23,7 +23,8 @@ struct graingas {
     struct gas gas;
     struct contacts contacts;
     struct sleep sleep;
-    double *ax, *ay; /* from the gas, [0 .. grains-1] (U0/tau) */
+    double *flux_schedule; /* the parameters' list, kept for the run (l/tau) */
+    double *ax, *ay;       /* from the gas, [0 .. grains-1] (U0/tau) */
     long long step;
     double start_collisions;    /* of the equilibration, per grain */
     long long pressure_cycles;  /* since the start */

@@ -140,6 +140,28 @@ START_TEST(layers_alternate_from_the_floor) {
 }
 END_TEST
 
+/* In an empty closed box the pressure of the whole lattice cannot change, but the floor row's
+ * rises with the flux: steady, dp = Pe q H/K, so its steps tell which flux was on. */
+START_TEST(a_schedule_of_fluxes_goes_step_by_step_and_ends) {
+    struct graingas *s = fixture_state("grains: 0\nwidth_l: 4\nheight_l: 6\nflux_on_tau: 0.5\n"
+                                       "flux_schedule_l_per_tau: [0.21, 0.13, -0.34]\n"
+                                       "flux_schedule_every_tau: 1.5\ndt_tau: 0.01\n",
+                                       1);
+    static const struct {
+        double until, flux;
+    } turn[] = {{0.5, 0}, {2, 0.21}, {3.5, 0.13}, {5, -0.34}, {7, 0}};
+    double k = pow(0.75, 4) / (0.25 * 0.25);
+    for (size_t n = 0; n < sizeof turn / sizeof *turn; n++) {
+        while (!graingas_model.reached(s, turn[n].until))
+            fixture_steps(s, 1);
+        const double *p = s->gas.pressure;
+        double drop = p[0] - p[s->lattice.sites - 1];
+        ck_assert_double_eq_tol(drop / 2e-4, turn[n].flux * 6 / k, 2e-3);
+    }
+    graingas_model.free(s);
+}
+END_TEST
+
 START_TEST(what_cannot_be_run_is_refused_before_the_first_step) {
     const struct {
         const char *yaml, *says;
@@ -152,6 +174,8 @@ START_TEST(what_cannot_be_run_is_refused_before_the_first_step) {
         {"flux_on_tau: 3\nflux_off_tau: 2\n", "is before flux_on_tau"},
         {"grains: 300\nwidth_l: 9\nheight_l: 10\nstart: equilibrated\nequilibrate_speed: 60\n",
          "equilibrate_speed 60 is too fast for steps of 0.0125 tau: start: grain"},
+        {"flux_l_per_tau: 0.3\nflux_schedule_l_per_tau: [0.1, 0.2]\n",
+         "flux_l_per_tau: 0.3 beside a schedule of 2 fluxes"},
         {"start: from-file\n", "needs a start_file"}};
     for (size_t n = 0; n < sizeof bad / sizeof *bad; n++) {
         struct fault fault = fixture_refused(bad[n].yaml);
@@ -182,6 +206,7 @@ int main(void) {
                                   the_random_start_has_no_overlap_and_stays_inside,
                                   equilibration_ends_at_rest_and_says_its_collisions,
                                   layers_alternate_from_the_floor,
+                                  a_schedule_of_fluxes_goes_step_by_step_and_ends,
                                   what_cannot_be_run_is_refused_before_the_first_step,
                                   a_grain_that_leaves_the_box_stops_the_run,
                                   NULL};
