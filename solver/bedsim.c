@@ -137,6 +137,8 @@ static void show_progress(struct job *job, double end) {
 }
 
 static enum status step_to(struct job *job, double time, double end, struct fault *fault) {
+    if (job->model->aim)
+        job->model->aim(job->state, time);
     while (!job->model->reached(job->state, time)) {
         if (interrupted)
             return fault_set(fault, STATUS_INTERRUPTED, "interrupted at t = %g %s",

@@ -67,6 +67,9 @@ struct model {
      * start: a result file to start from, or NULL. On error *state is NULL. */
     enum status (*create)(void **state, const struct parameter_set *p, struct h5_reader *start,
                           uint64_t seed, struct fault *fault);
+    /* The next sample's time: a step must not pass it.  NULL where steps are whole and
+     * the nearest one counts. */
+    void (*aim)(void *state, double time);
     /* One time step, or one batch of events; STATUS_NUMERICAL names step and cause. */
     enum status (*step)(void *state, struct fault *fault);
     /* Steps done and time reached, in time_unit. */
