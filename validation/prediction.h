@@ -12,7 +12,7 @@
 
 #include <stddef.h>
 
-enum { PREDICTION_MAX_INPUTS = 8 };
+enum { PREDICTION_MAX_INPUTS = 16 };
 
 struct prediction {
     const char *name, *title, *unit;
