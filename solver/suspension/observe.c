@@ -266,7 +266,7 @@ static enum status append_layer_error(struct suspension *s, struct h5_writer *w,
 
 static enum status append_order(const struct suspension *s, struct h5_writer *w, const char *name,
                                 struct fault *fault) {
-    struct engine_setup setup = start_setup(&s->parameters);
+    struct engine_setup setup = suspension_start_setup(&s->parameters);
     double q6 = 0;
     engine_snapshot(s->engine, s->position, NULL, NULL);
     if (bonds_order(&setup, s->position, &q6, fault) != STATUS_OK)

@@ -224,20 +224,20 @@ static void check_start(const struct parameter_set *p, const struct suspension_p
                 v->boundary[2] == BOUNDARY_HARD;
     double most = hard ? SUSPENSION_PACKING_HARD : SUSPENSION_PACKING_PERIODIC;
     double phi = suspension_parameters_packing(v), grown = phi * pow(1 + v->wave_amplitude, 3);
-    if (v->start == START_RANDOM && grown > most)
+    if (v->start == SPHERES_RANDOM && grown > most)
         parameters_fault(p, "packing_fraction", fault,
                          "%zu spheres fill %.4f of the box%s; the start reaches %.2f %s",
                          v->particles, grown, grown > phi ? " before the wave is made" : "", most,
                          hard ? "between hard walls" : "in a periodic box");
-    if (v->start == START_RANDOM && v->particles < 2)
+    if (v->start == SPHERES_RANDOM && v->particles < 2)
         parameters_fault(p, "particles", fault,
                          "a single sphere has no temperature; use start: list");
     if ((v->wave_mode > 0) != (v->wave_amplitude > 0))
         parameters_fault(p, "wave_mode", fault, "%d with a wave_amplitude of %g", v->wave_mode,
                          v->wave_amplitude);
-    if (v->wave_mode > 0 && (v->start != START_RANDOM || v->boundary[2] != BOUNDARY_PERIODIC))
+    if (v->wave_mode > 0 && (v->start != SPHERES_RANDOM || v->boundary[2] != BOUNDARY_PERIODIC))
         parameters_fault(p, "wave_mode", fault, "needs start: random and boundary_z: periodic");
-    if (v->start == START_RANDOM && grown > 0.12 && !(v->temperature > 0))
+    if (v->start == SPHERES_RANDOM && grown > 0.12 && !(v->temperature > 0))
         parameters_fault(p, "thermal_energy_J", fault,
                          "0 J: spheres at a packing fraction of %.4f are grown while they move",
                          grown);
@@ -255,11 +255,11 @@ static void check_lists(const struct parameter_set *p, const struct suspension_p
                  {"sphere_velocity_y", v->velocity[1].count},
                  {"sphere_velocity_z", v->velocity[2].count}};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-        if (v->start == START_LIST && lists[i].count != v->particles)
+        if (v->start == SPHERES_LIST && lists[i].count != v->particles)
             parameters_fault(p, lists[i].name, fault,
                              "%zu values where start: list has %zu particles", lists[i].count,
                              v->particles);
-        else if (v->start != START_LIST && lists[i].count > 0)
+        else if (v->start != SPHERES_LIST && lists[i].count > 0)
             parameters_fault(p, lists[i].name, fault, "is used with start: list only");
 }
 

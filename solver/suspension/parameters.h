@@ -28,7 +28,7 @@ enum noise_rate {
 };
 enum kick_schedule { KICKS_POISSON, KICKS_ROUND_ROBIN, KICKS_SYNCHRONOUS };
 enum drive_law { DRIVE_NONE, DRIVE_LINEAR, DRIVE_FULL };
-enum sphere_start { START_RANDOM, START_FROM_FILE, START_LIST };
+enum sphere_start { SPHERES_RANDOM, SPHERES_FROM_FILE, SPHERES_LIST };
 
 /* Packing fractions that Lubachevsky-Stillinger growth at the default speed reached
  * with 1e4 spheres: beyond, it is refused rather than tried. */

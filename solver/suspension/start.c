@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-struct engine_setup start_setup(const struct suspension_parameters *v) {
+struct engine_setup suspension_start_setup(const struct suspension_parameters *v) {
     struct engine_setup s = {.count = v->particles,
                              .radius_m = v->radius,
                              .mass_kg = v->mass,
@@ -81,7 +81,7 @@ static void make_wave(const struct suspension_parameters *v, double *position) {
 static enum status start_random(const struct suspension_parameters *v, uint64_t seed,
                                 double *position, double *velocity, double *collisions,
                                 struct fault *fault) {
-    struct engine_setup s = start_setup(v);
+    struct engine_setup s = suspension_start_setup(v);
     s.radius_m *= 1 + v->wave_amplitude;
     s.restitution = 1;
     s.guard = GUARD_NONE;
@@ -150,16 +150,16 @@ static enum status start_from_file(const struct suspension_parameters *v, struct
     return STATUS_OK;
 }
 
-enum status start_make(const struct suspension_parameters *v, struct h5_reader *file, uint64_t seed,
-                       double *position, double *velocity, double *collisions,
-                       struct fault *fault) {
+enum status suspension_start(const struct suspension_parameters *v, struct h5_reader *file,
+                             uint64_t seed, double *position, double *velocity, double *collisions,
+                             struct fault *fault) {
     *collisions = 0;
-    if (file && v->start != START_FROM_FILE)
+    if (file && v->start != SPHERES_FROM_FILE)
         return fault_set(fault, STATUS_BAD_INPUT,
                          "a start_file is given, but start is not from-file");
-    if (v->start == START_FROM_FILE)
+    if (v->start == SPHERES_FROM_FILE)
         return start_from_file(v, file, position, velocity, fault);
-    if (v->start == START_RANDOM)
+    if (v->start == SPHERES_RANDOM)
         return start_random(v, seed, position, velocity, collisions, fault);
     start_list(v, position, velocity);
     return STATUS_OK;

@@ -23,10 +23,11 @@
 
 /* Fill position, velocity[3*i+axis] (m, m/s) of v->particles spheres.  file: the
  * earlier result, for from-file only.  *collisions: of the growth, per sphere. */
-enum status start_make(const struct suspension_parameters *v, struct h5_reader *file, uint64_t seed,
-                       double *position, double *velocity, double *collisions, struct fault *fault);
+enum status suspension_start(const struct suspension_parameters *v, struct h5_reader *file,
+                             uint64_t seed, double *position, double *velocity, double *collisions,
+                             struct fault *fault);
 
 /* The engine's set-up that the parameters mean. */
-struct engine_setup start_setup(const struct suspension_parameters *v);
+struct engine_setup suspension_start_setup(const struct suspension_parameters *v);
 
 #endif

@@ -220,13 +220,13 @@ static enum status keep_schedule(struct suspension_parameters *p, const struct r
 static enum status make_spheres(struct suspension *s, struct h5_reader *file, uint64_t seed,
                                 struct fault *fault) {
     struct suspension_parameters *p = &s->parameters;
-    struct engine_setup setup = start_setup(p);
+    struct engine_setup setup = suspension_start_setup(p);
     s->position = malloc(3 * p->particles * sizeof *s->position);
     s->velocity = malloc(3 * p->particles * sizeof *s->velocity);
     if (!s->position || !s->velocity)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu spheres", p->particles);
     double clock = suspension_clock();
-    if (start_make(p, file, seed, s->position, s->velocity, &s->start_collisions, fault) ||
+    if (suspension_start(p, file, seed, s->position, s->velocity, &s->start_collisions, fault) ||
         engine_create(&s->engine, &setup, fault))
         return fault->status;
     if (engine_set_state(s->engine, s->position, s->velocity, fault) != STATUS_OK)
