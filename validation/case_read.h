@@ -27,7 +27,7 @@ struct case_reader {
     const struct yaml_node *root;
     const struct yaml_node *runs; /* where the runs are described: root, or `runs_of`'s root */
     struct fault *fault;
-    bool borrowed; /* read for the sake of its runs */
+    bool borrowed;                       /* read for the sake of its runs */
     bool *observable_used, *across_used; /* one flag each */
     struct case_mark *mark;
     size_t mark_count;

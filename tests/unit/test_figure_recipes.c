@@ -29,7 +29,20 @@ static const char text[] =
     "  - {recipe: outputs, of: fall, points: {darcy: corrected}}\n"
     "tiers: {smoke: {}}\n";
 
-enum { PANELS, BETWEEN, SPREAD, MOVIE, SPEED, DROP, TWO_LAWS, RISE, NO_CURVE, SETTLING, SNAPSHOT, OUTPUTS };
+enum {
+    PANELS,
+    BETWEEN,
+    SPREAD,
+    MOVIE,
+    SPEED,
+    DROP,
+    TWO_LAWS,
+    RISE,
+    NO_CURVE,
+    SETTLING,
+    SNAPSHOT,
+    OUTPUTS
+};
 enum { NX = 8, NY = 13 }; /* sites of the box */
 enum { GRAINS = 5, FRAMES = 11, OBSERVABLES = 3, FALL = 1, DROPS = 2 };
 
