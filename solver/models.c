@@ -1,10 +1,11 @@
 #include "solver/graingas/graingas.h"
 #include "solver/model.h"
+#include "solver/suspension/suspension.h"
 
 #include <string.h>
 
 /* Adding a model: one line here. */
-static const struct model *const all[] = {&graingas_model};
+static const struct model *const all[] = {&graingas_model, &suspension_model};
 
 const struct model *const *models_all(size_t *count) {
     *count = sizeof all / sizeof *all;

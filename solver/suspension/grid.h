@@ -5,7 +5,7 @@
  * so that all within reach lie in the 27 cells around; periodic sides wrap round,
  * and a side of fewer than three cells is one cell.
  *
- * Checked by: tests/unit/test_grid.c.
+ * Checked by: tests/unit/test_bonds.c.
  */
 #ifndef SUSPENSION_GRID_H
 #define SUSPENSION_GRID_H

@@ -11,6 +11,7 @@ static const double placed_packing = 0.12;
 enum { MAX_TRIES = 100000 };           /* for one sphere */
 static const double most_hits = 20000; /* collisions of a sphere during growth: jammed */
 static const double slice_hits = 3;    /* collisions of a sphere between rescalings */
+static const double shortest = 1e-9;   /* slice over the whole growth: jammed too */
 
 /* -- placing ---------------------------------------------------------------------- */
 
@@ -88,6 +89,13 @@ static void rescale(struct growth *g) {
     }
 }
 
+static enum status jammed(const struct growth *g, double end, struct fault *fault) {
+    return fault_set(fault, STATUS_BAD_INPUT,
+                     "start: the spheres jam when %.4f of their diameter is grown; the packing "
+                     "fraction is too large for this box",
+                     engine_diameter(g->engine) / end);
+}
+
 /* Slices shrink with the time between collisions, which tells a jam well before it. */
 static enum status grow_all(struct growth *g, double start, double end, double speed,
                             struct fault *fault) {
@@ -96,17 +104,15 @@ static enum status grow_all(struct growth *g, double start, double end, double s
     double now = 0, slice = duration / 100;
     while (now < duration) {
         double before = (double)t->collisions, next = fmin(now + slice, duration);
-        if (engine_advance(g->engine, next, fault) != STATUS_OK)
-            return fault->status;
+        if (engine_advance(g->engine, next, fault) == STATUS_NUMERICAL)
+            return jammed(g, end, fault);
         rescale(g);
         double hits = 2 * ((double)t->collisions - before) / count;
         slice = fmin(slice_hits * (next - now) / fmax(hits, 1e-3), duration / 100);
         now = next;
-        if (2 * (double)t->collisions > most_hits * count)
-            return fault_set(fault, STATUS_BAD_INPUT,
-                             "start: the spheres jam when %.4f of their diameter is grown; the "
-                             "packing fraction is too large for this box",
-                             engine_diameter(g->engine) / end);
+        bool crowded = slice < shortest * duration && now < duration;
+        if (2 * (double)t->collisions > most_hits * count || crowded)
+            return jammed(g, end, fault);
     }
     return STATUS_OK;
 }

@@ -18,7 +18,7 @@
  *
  * Source:     Fiege & Zippelius (2013), Section III; the coefficient: docs/theory.md.
  * Leaves out: velocity correlations (recollisions), so T is off where (1) is.
- * Checked by: tests/unit/test_noise.c, suspension/verification-power.
+ * Checked by: tests/unit/test_suspension_parameters.c, test_suspension.c.
  */
 #ifndef SUSPENSION_NOISE_H
 #define SUSPENSION_NOISE_H

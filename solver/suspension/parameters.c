@@ -224,7 +224,7 @@ static void check_start(const struct parameter_set *p, const struct suspension_p
                 v->boundary[2] == BOUNDARY_HARD;
     double most = hard ? SUSPENSION_PACKING_HARD : SUSPENSION_PACKING_PERIODIC;
     double phi = suspension_parameters_packing(v), grown = phi * pow(1 + v->wave_amplitude, 3);
-    if (v->start == SPHERES_RANDOM && grown > most)
+    if (v->start == SPHERES_RANDOM && grown > most * (1 + 1e-9))
         parameters_fault(p, "packing_fraction", fault,
                          "%zu spheres fill %.4f of the box%s; the start reaches %.2f %s",
                          v->particles, grown, grown > phi ? " before the wave is made" : "", most,

@@ -13,7 +13,7 @@
  *
  * Source:     Fiege & Zippelius (2013), "FZ".
  * Leaves out: shear within a slab, which counts as heat.
- * Checked by: tests/unit/test_profiles.c.
+ * Checked by: tests/unit/test_bonds.c.
  */
 #ifndef SUSPENSION_PROFILES_H
 #define SUSPENSION_PROFILES_H
