@@ -182,7 +182,8 @@ static void predict_ahead(struct engine *e, uint32_t i, int axis, int step) {
         search_inside(&f);
     else
         search_boundary(&f);
-    if (f.partner != v->partner) {
+    /* The same partner counts as well: it may have changed since it was foreseen. */
+    if (f.time < v->pair_time || f.partner != v->partner) {
         v->pair_time = f.time;
         v->partner = f.partner;
         v->partner_count = e->event[f.partner].count;
