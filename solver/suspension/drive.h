@@ -17,7 +17,7 @@
  *
  * Source:     Fiege & Zippelius (2013), "FZ".
  * Leaves out: the density dependence of the drag in x and y (FZ, Section III).
- * Checked by: tests/unit/test_suspension.c, suspension/verification-slab.
+ * Checked by: tests/unit/test_suspension.c, suspension/verification-terminal-velocity.
  */
 #ifndef SUSPENSION_DRIVE_H
 #define SUSPENSION_DRIVE_H

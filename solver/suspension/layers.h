@@ -13,7 +13,7 @@
  * Source: Fiege & Zippelius (2013), Section III ("we count the number of particles
  *         in a layer"); the truncation at walls is not stated there.
  * Leaves out: any structure across the layer.
- * Checked by: tests/unit/test_layers.c, suspension/verification-slab.
+ * Checked by: tests/unit/test_layers.c, suspension/verification-terminal-velocity.
  */
 #ifndef SUSPENSION_LAYERS_H
 #define SUSPENSION_LAYERS_H

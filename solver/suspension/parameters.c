@@ -229,9 +229,6 @@ static void check_start(const struct parameter_set *p, const struct suspension_p
                          "%zu spheres fill %.4f of the box%s; the start reaches %.2f %s",
                          v->particles, grown, grown > phi ? " before the wave is made" : "", most,
                          hard ? "between hard walls" : "in a periodic box");
-    if (v->start == SPHERES_RANDOM && v->particles < 2)
-        parameters_fault(p, "particles", fault,
-                         "a single sphere has no temperature; use start: list");
     if ((v->wave_mode > 0) != (v->wave_amplitude > 0))
         parameters_fault(p, "wave_mode", fault, "%d with a wave_amplitude of %g", v->wave_mode,
                          v->wave_amplitude);
@@ -307,6 +304,9 @@ enum status suspension_parameters_read(const struct parameter_set *p,
     read_spheres(p, out);
     read_fluid(p, out);
     read_lists(p, out);
+    if (out->start == SPHERES_RANDOM && out->particles < 2)
+        parameters_fault(p, "particles", fault,
+                         "a single sphere has no temperature; use start: list");
     find_box(p, out, fault);
     if (fault->status == STATUS_OK)
         check_box(p, out, fault);
