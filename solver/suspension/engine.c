@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { STANDSTILL = 1000, STANDSTILL_A_SPHERE = 64 };
+enum { STANDSTILL = 100, STANDSTILL_A_SPHERE = 16 };
 
 /* -- search ------------------------------------------------------------------------- */
 
