@@ -244,7 +244,7 @@ def test_a_damaged_file_is_refused(run):
 
 
 def test_an_interrupted_run_leaves_nothing(tmp_path):
-    (tmp_path / "x.yaml").write_text(RUN.replace("0.5]", "500]"), encoding="utf-8")
+    (tmp_path / "x.yaml").write_text(RUN.replace("0.5]", "500000]"), encoding="utf-8")
     process = subprocess.Popen(
         [str(BIN / "bedsim"), "run", str(tmp_path / "x.yaml"), "--seed", "1", "--out",
          str(tmp_path / "x.h5")], stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
