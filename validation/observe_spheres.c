@@ -119,14 +119,16 @@ enum status observe_spheres_together(struct run_view *v, const struct series *a,
 enum status observe_spheres_drag(struct run_view *v, double *gamma, struct fault *fault) {
     double drag, phibar, exponent;
     const double *change;
-    size_t changes;
+    size_t changes = 0;
     enum status status = run_view_parameter(v, "drag_per_s", &drag, fault);
     if (!status)
         status = run_view_parameter(v, "phibar", &phibar, fault);
     if (!status)
         status = run_view_parameter(v, "exponent", &exponent, fault);
-    if (!status)
-        status = run_view_parameter_list(v, "phibar_times_s", &change, &changes, fault);
+    struct fault absent = FAULT_NONE; /* an empty list has no attribute */
+    if (!status && run_view_parameter_list(v, "phibar_times_s", &change, &changes, &absent) ==
+                       STATUS_NO_MEMORY)
+        status = fault_set(fault, STATUS_NO_MEMORY, "no memory for a list");
     if (!status && changes)
         status = fault_set(fault, STATUS_BAD_INPUT, "%s: phibar changes: there is no one drag",
                            run_view_path(v));
