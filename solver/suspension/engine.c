@@ -307,6 +307,70 @@ static void meet(struct engine *e, uint32_t i) {
     engine_predict(e, j);
 }
 
+/* -- memory of what is to come -------------------------------------------------------- */
+
+/* Large systems do not fit in the cache: what an event will read is asked for some
+ * buckets of events before it is due, in three steps, as each shows where the next is.
+ * Hints to the processor only: no result depends on them. */
+enum { AHEAD_FROM = 30000, AHEAD_RECORDS = 4, AHEAD_CELLS = 2, AHEAD_SPHERES = 1 };
+
+static inline void ask_for_cells(const struct engine *e, const struct sphere *s) {
+    const struct cells *c = &e->cells;
+    for (int z = -1; z <= 1; z++)
+        for (int y = -1; y <= 1; y++) {
+            uint32_t row = cells_of(c, s) + (uint32_t)(z * (int)c->n[1] + y) * c->n[0];
+            __builtin_prefetch(c->label + CELL_LABELS * (size_t)row - CELL_LABELS);
+            __builtin_prefetch(c->label + CELL_LABELS * (size_t)row + 2 * CELL_LABELS - 1);
+        }
+}
+
+static inline void ask_for_spheres(const struct engine *e, const struct sphere *s) {
+    const struct cells *c = &e->cells;
+    for (int z = -1; z <= 1; z++)
+        for (int y = -1; y <= 1; y++) {
+            uint32_t row = cells_of(c, s) + (uint32_t)(z * (int)c->n[1] + y) * c->n[0];
+            const uint32_t *label = c->label + CELL_LABELS * (size_t)row - CELL_LABELS;
+            for (int k = 0; k < 3 * CELL_LABELS; k += CELL_LABELS) {
+                if (label[k] < e->count)
+                    __builtin_prefetch(&e->sphere[label[k]]);
+                if (label[k + 1] < e->count)
+                    __builtin_prefetch(&e->sphere[label[k + 1]]);
+            }
+        }
+}
+
+/* Is the event of i due in the bucket where it is, and not only parked there? */
+static inline bool is_due_within(const struct queue *q, uint32_t i, int buckets) {
+    return (q->event[i].time - q->origin) * q->per_width < (double)(q->present + buckets + 1);
+}
+
+static __attribute__((noinline)) void look_ahead(struct engine *e) {
+    const struct queue *q = &e->queue;
+    const uint32_t *records = queue_ahead(q, AHEAD_RECORDS), *near = queue_ahead(q, AHEAD_CELLS);
+    const uint32_t *next = queue_ahead(q, AHEAD_SPHERES);
+    __builtin_prefetch(queue_ahead(q, AHEAD_RECORDS + 2));
+    e->looked_at = q->present;
+    for (int k = 0; k < QUEUE_SLOTS; k++)
+        if (records[k] != QUEUE_NONE) {
+            __builtin_prefetch(&e->sphere[records[k]]);
+            __builtin_prefetch(&e->event[records[k]]);
+        }
+    for (int k = 0; k < QUEUE_SLOTS; k++)
+        if (near[k] != QUEUE_NONE && is_due_within(q, near[k], AHEAD_CELLS)) {
+            uint32_t j = e->event[near[k]].partner;
+            if (is_inside(&e->cells, &e->sphere[near[k]]))
+                ask_for_cells(e, &e->sphere[near[k]]);
+            if (j != QUEUE_NONE) {
+                __builtin_prefetch(&e->sphere[j]);
+                __builtin_prefetch(&e->event[j]);
+            }
+        }
+    for (int k = 0; k < QUEUE_SLOTS; k++)
+        if (next[k] != QUEUE_NONE && is_due_within(q, next[k], AHEAD_SPHERES) &&
+            is_inside(&e->cells, &e->sphere[next[k]]))
+            ask_for_spheres(e, &e->sphere[next[k]]);
+}
+
 /* -- the loop ----------------------------------------------------------------------- */
 
 static enum status check_headway(struct engine *e, double time, uint32_t i, struct fault *fault) {
@@ -324,6 +388,8 @@ static enum status check_headway(struct engine *e, double time, uint32_t i, stru
 static enum status run_events(struct engine *e, double until, struct fault *fault) {
     uint32_t i;
     while ((i = queue_first(&e->queue, until)) != QUEUE_NONE) {
+        if (e->count >= AHEAD_FROM && e->queue.present != e->looked_at)
+            look_ahead(e);
         struct event *v = &e->event[i];
         if (check_headway(e, v->time, i, fault) != STATUS_OK)
             return fault->status;

@@ -32,6 +32,7 @@ struct engine {
     long long events, rebuild_events; /* since the last rebuild; that ask for the next */
     double tuned_from;                /* (s, common clock): events are counted since then */
     long long standstill;             /* collisions at one time in a row */
+    int64_t looked_at;                /* bucket for which memory was asked ahead */
     uint32_t broken;                  /* a sphere whose velocity is not finite, or QUEUE_NONE */
     bool placed;                      /* engine_set_state was called */
     struct engine_tally tally;

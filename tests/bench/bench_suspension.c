@@ -7,7 +7,7 @@
  * records of one cache line in cell order, no event loop around it.  Then the full
  * model's mix: a kick for each collision.  CPU time of one core; best of the turns.
  *
- *     bench_suspension [LARGEST N] */
+ *     bench_suspension [LARGEST N [SMALLEST N]] */
 #include "common/random.h"
 #include "solver/suspension/engine.h"
 #include "solver/suspension/predict.h"
@@ -200,7 +200,8 @@ static void measure(gsl_rng *r, const double *x, double packing, double side, si
 
 int main(int argc, char **argv) {
     static const double packing[2] = {0.3, 0.45};
-    double largest = argc > 1 ? atof(argv[1]) : 1e6;
+    double largest = argc > 1 ? atof(argv[1]) : 1e6, smallest = argc > 2 ? atof(argv[2]) : 1e4;
+    setvbuf(stdout, NULL, _IOLBF, 0);
     struct fault fault = FAULT_NONE;
     gsl_rng *r = NULL;
     random_stream(1101, "bench", &r, &fault);
@@ -211,7 +212,8 @@ int main(int argc, char **argv) {
         grow(r, side, x);
         printf("growth to packing %.2f: %.2f s\n", packing[p], cpu_seconds() - began);
         for (size_t times = 1; times <= 100 && (double)(SMALL * times) <= largest; times *= 10)
-            measure(r, x, packing[p], side, times);
+            if ((double)(SMALL * times) >= smallest)
+                measure(r, x, packing[p], side, times);
     }
     free(x);
     gsl_rng_free(r);
