@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { EVENTS_A_BUCKET = 5, EVENTS_A_REBUILD = 16, EVENTS_AT_LEAST = 1000 };
+enum { EVENTS_A_BUCKET = 5, EVENTS_A_REBUILD = 4, EVENTS_AT_LEAST = 1000 };
 static const double deepest_allowed = 1e-10; /* diameters: what rounding to text may cost */
 
 /* -- creation ----------------------------------------------------------------------- */
