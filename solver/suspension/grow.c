@@ -11,6 +11,7 @@ static const double placed_packing = 0.12;
 enum { MAX_TRIES = 100000 };           /* for one sphere */
 static const double most_hits = 20000; /* collisions of a sphere during growth: jammed */
 static const double slice_hits = 3;    /* collisions of a sphere between rescalings */
+static const double let_pass = 0.05;   /* of the thermal speed */
 static const double shortest = 1e-9;   /* slice over the whole growth: jammed too */
 
 /* -- placing ---------------------------------------------------------------------- */
@@ -75,7 +76,8 @@ static enum status set_going(struct growth *g, struct fault *fault) {
     return engine_set_state(g->engine, g->position, g->velocity, fault);
 }
 
-/* Back to the temperature: every sphere is kicked along its own velocity. */
+/* Back to the temperature: every sphere is kicked along its own velocity.  That costs an
+ * event a sphere, so a few per cent of speed are let pass. */
 static void rescale(struct growth *g) {
     const size_t count = g->rule->setup.count;
     double sum = 0;
@@ -83,6 +85,8 @@ static void rescale(struct growth *g) {
     for (size_t k = 0; k < 3 * count; k++)
         sum += g->velocity[k] * g->velocity[k];
     double excess = sqrt(3 * (double)count * g->rule->square_speed / sum) - 1;
+    if (fabs(excess) < let_pass)
+        return;
     for (size_t i = 0; i < count; i++) {
         const double *v = g->velocity + 3 * i;
         engine_kick(g->engine, i, (double[3]){excess * v[0], excess * v[1], excess * v[2]});

@@ -3,8 +3,8 @@
  *
  * Placing stops at a packing fraction of .12, where a uniform place is free often
  * enough; the diameter then grows at a constant speed.  Collisions with growing
- * surfaces heat the spheres; their velocities are set back to the temperature after
- * every slice of time, which shrinks with the time between collisions.
+ * surfaces heat the spheres; their velocities are set back to the temperature when,
+ * after a slice of time that shrinks with the time between collisions, speeds are 5 % off.
  *
  * Leaves out: a check that the result is in equilibrium: the slower the growth, the
  *             nearer.  Above .494 it stays a fluid, or a glass, for as long as it takes.
