@@ -253,6 +253,17 @@ double engine_bucket_width(const struct engine *e, double seconds) {
     return width > 0 && isfinite(1 / width) ? width : 1;
 }
 
+/* A sphere without an event for 30/gamma and more: its time in the clock, which grows by e with
+ * each 1/gamma, would overflow in the end.  It is brought to now; it has all but stopped. */
+static void catch_up(const struct engine *e, struct sphere *s) {
+    static const double LONG_AGO = -1e13; /* (1/gamma) */
+    if (!(s->t * e->gamma < LONG_AGO))
+        return;
+    for (int a = 0; a < 3; a++)
+        s->x[a] -= s->w[a] * s->t;
+    s->t = 0;
+}
+
 /* Make now the origin of the common clock. */
 static void rebase(struct engine *e) {
     double S = e->now, slowing = engine_slowing(e, S), per = 1 / slowing;
@@ -263,6 +274,7 @@ static void rebase(struct engine *e) {
         s->t = (s->t - S) * per;
         for (int a = 0; a < 3; a++)
             s->w[a] *= slowing;
+        catch_up(e, s);
         v->time = (v->time - S) * per;
         v->pair_time = (v->pair_time - S) * per;
         e->last_hit[i] = (e->last_hit[i] - S) * per;

@@ -123,6 +123,22 @@ START_TEST(drag_ends_a_way_at_v_over_gamma) {
 }
 END_TEST
 
+/* Over gamma t = 709 the time of its last event would overflow in the clock. */
+START_TEST(a_sphere_may_meet_nothing_for_as_long_as_it_likes) {
+    const double x[3] = {0.0031, 0.0047, 0.0059}, v[3] = {0.0071, -0.0023, 0.0013};
+    struct engine *e = make(1, box, BOUNDARY_PERIODIC, 0.83, x, v);
+    double place[3], speed[3], gamma = 23.7;
+    drag(e, gamma);
+    run_to(e, 211.3);
+    engine_place(e, 0, place, speed);
+    for (int a = 0; a < 3; a++) {
+        ck_assert_double_eq_tol(place[a], x[a] + v[a] / gamma, 1e-15);
+        ck_assert_double_eq_tol(speed[a], 0, 1e-30);
+    }
+    engine_free(e);
+}
+END_TEST
+
 START_TEST(a_lone_sphere_comes_round_and_is_counted) {
     const double R = radius, x[3] = {1.7 * R, 9.1 * R, 3.3 * R}, v[3] = {0.91, -0.33, 0.57};
     double place[3];
@@ -239,6 +255,7 @@ int main(void) {
     const TTest *tests[] = {two_spheres_meet_as_the_formula_says,
                             spheres_meet_through_a_periodic_side,
                             drag_ends_a_way_at_v_over_gamma,
+                            a_sphere_may_meet_nothing_for_as_long_as_it_likes,
                             a_lone_sphere_comes_round_and_is_counted,
                             a_kick_changes_its_sphere_only,
                             a_collapse_is_guarded_or_told,
