@@ -54,17 +54,18 @@ static inline uint32_t cells_index(const struct cells *c, uint32_t ix, uint32_t 
     return (iz * c->n[1] + iy) * c->n[0] + ix;
 }
 
-static inline uint32_t cells_of(const struct cells *c, const struct sphere *s) {
-    return cells_index(c, s->cell[0], s->cell[1], s->cell[2]);
+static inline uint32_t cells_of(const struct cells *c, const uint16_t cell[3]) {
+    return cells_index(c, cell[0], cell[1], cell[2]);
 }
 
 /* How long until a sphere leaves its cell (s, from its local time), and along which
  * axis, upwards or downwards; INFINITY for one at rest. */
-static inline double cells_exit(const struct cells *c, const struct sphere *s, int *axis) {
+static inline double cells_exit(const struct cells *c, const struct sphere *s,
+                                const uint16_t cell[3], int *axis) {
     double best = INFINITY;
     *axis = 0;
     for (int a = 0; a < 3; a++) {
-        double plane = c->edge[a][s->cell[a] + (s->w[a] > 0)];
+        double plane = c->edge[a][cell[a] + (s->w[a] > 0)];
         double dt = (plane - s->x[a]) / s->w[a];
         if (s->w[a] != 0 && dt < best) {
             best = dt;

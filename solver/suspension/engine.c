@@ -12,6 +12,7 @@ enum { STANDSTILL = 100, STANDSTILL_A_SPHERE = 16 };
 struct search {
     struct engine *e;
     const struct sphere *s;
+    const uint16_t *cell;
     int from[3], to[3];
     bool shifted; /* some of the cells are seen across a boundary */
     double time;  /* (s, common clock) the earliest contact found so far */
@@ -33,7 +34,7 @@ static inline __attribute__((always_inline)) void judge(struct search *f, bool s
         double time = e->now + k->tau[n];
         uint32_t j = k->hit[n];
         if (time < f->time || (time == f->time && j < f->partner))
-            if (e->event[j].pair_time > time) {
+            if (e->sphere[j].pair_time > time) {
                 f->time = time;
                 f->partner = j;
             }
@@ -81,7 +82,7 @@ static inline __attribute__((always_inline)) void take_cell(struct search *f, ui
 /* All cells inside the grid, none across a boundary. */
 static inline __attribute__((always_inline)) void search_inside(struct search *f) {
     const struct cells *c = &f->e->cells;
-    uint32_t own = cells_of(c, f->s);
+    uint32_t own = cells_of(c, f->cell);
     f->shifted = false;
     for (int z = f->from[2]; z <= f->to[2]; z++)
         for (int y = f->from[1]; y <= f->to[1]; y++) {
@@ -103,7 +104,7 @@ static struct line line_of(const struct search *f, int axis) {
     const struct cells *c = &f->e->cells;
     struct line l = {.count = 0};
     for (int d = f->from[axis]; d <= f->to[axis]; d++) {
-        int k = f->s->cell[axis] + d, n = (int)c->n[axis], side = k < 0 ? 0 : k < n ? 1 : 2;
+        int k = f->cell[axis] + d, n = (int)c->n[axis], side = k < 0 ? 0 : k < n ? 1 : 2;
         if (side != 1 && !c->periodic[axis])
             continue;
         l.cell[l.count] = (uint32_t)(side == 0 ? k + n : side == 2 ? k - n : k);
@@ -128,9 +129,9 @@ static __attribute__((noinline)) void search_boundary(struct search *f) {
     judge_shifted(f);
 }
 
-static inline bool is_inside(const struct cells *c, const struct sphere *s) {
-    return s->cell[0] - 1u < c->n[0] - 2u && s->cell[1] - 1u < c->n[1] - 2u &&
-           s->cell[2] - 1u < c->n[2] - 2u && c->n[0] > 2 && c->n[1] > 2 && c->n[2] > 2;
+static inline bool is_inside(const struct cells *c, const uint16_t cell[3]) {
+    return cell[0] - 1u < c->n[0] - 2u && cell[1] - 1u < c->n[1] - 2u &&
+           cell[2] - 1u < c->n[2] - 2u && c->n[0] > 2 && c->n[1] > 2 && c->n[2] > 2;
 }
 
 /* -- prediction --------------------------------------------------------------------- */
@@ -139,8 +140,9 @@ static inline bool is_inside(const struct cells *c, const struct sphere *s) {
 static inline void schedule(struct engine *e, uint32_t i) {
     int axis;
     struct event *v = &e->event[i];
-    double leave = e->sphere[i].t + cells_exit(&e->cells, &e->sphere[i], &axis);
-    v->time = v->pair_time <= leave ? v->pair_time : leave;
+    const struct sphere *s = &e->sphere[i];
+    double leave = s->t + cells_exit(&e->cells, s, v->cell, &axis);
+    v->time = s->pair_time <= leave ? s->pair_time : leave;
     queue_move(&e->queue, i);
 }
 
@@ -148,16 +150,17 @@ static inline void schedule(struct engine *e, uint32_t i) {
 static void find_pair(struct engine *e, uint32_t i) {
     struct search f = {.e = e,
                        .s = &e->sphere[i],
+                       .cell = e->event[i].cell,
                        .from = {-1, -1, -1},
                        .to = {1, 1, 1},
                        .time = INFINITY,
                        .partner = QUEUE_NONE};
-    if (is_inside(&e->cells, f.s))
+    if (is_inside(&e->cells, f.cell))
         search_inside(&f);
     else
         search_boundary(&f);
     struct event *v = &e->event[i];
-    v->pair_time = f.time;
+    e->sphere[i].pair_time = f.time;
     v->partner = f.partner;
     if (f.partner != QUEUE_NONE)
         v->partner_count = e->event[f.partner].count;
@@ -173,18 +176,19 @@ static void predict_ahead(struct engine *e, uint32_t i, int axis, int step) {
     struct event *v = &e->event[i];
     struct search f = {.e = e,
                        .s = &e->sphere[i],
+                       .cell = e->event[i].cell,
                        .from = {-1, -1, -1},
                        .to = {1, 1, 1},
-                       .time = v->pair_time,
+                       .time = e->sphere[i].pair_time,
                        .partner = v->partner};
     f.from[axis] = f.to[axis] = step;
-    if (is_inside(&e->cells, f.s))
+    if (is_inside(&e->cells, f.cell))
         search_inside(&f);
     else
         search_boundary(&f);
     /* The same partner counts as well: it may have changed since it was foreseen. */
-    if (f.time < v->pair_time || f.partner != v->partner) {
-        v->pair_time = f.time;
+    if (f.time < e->sphere[i].pair_time || f.partner != v->partner) {
+        e->sphere[i].pair_time = f.time;
         v->partner = f.partner;
         v->partner_count = e->event[f.partner].count;
     }
@@ -209,23 +213,24 @@ static void leave_cell(struct engine *e, uint32_t i) {
     struct sphere *s = &e->sphere[i];
     struct cells *c = &e->cells;
     int axis;
-    (void)cells_exit(c, s, &axis);
-    bool up = s->w[axis] > 0, last = up ? s->cell[axis] + 1u == c->n[axis] : s->cell[axis] == 0;
+    uint16_t *cell = e->event[i].cell;
+    (void)cells_exit(c, s, cell, &axis);
+    bool up = s->w[axis] > 0, last = up ? cell[axis] + 1u == c->n[axis] : cell[axis] == 0;
     sphere_advance(s, e->now);
     if (last && !c->periodic[axis]) {
         reflect(e, i, axis, up);
         return;
     }
     e->tally.cell_crossings++;
-    cells_remove(c, cells_of(c, s), i);
+    cells_remove(c, cells_of(c, cell), i);
     if (last) {
         s->x[axis] += up ? -c->side[axis] : c->side[axis];
         e->image[i][axis] += up ? 1 : -1;
-        s->cell[axis] = (uint16_t)(up ? 0 : c->n[axis] - 1);
+        cell[axis] = (uint16_t)(up ? 0 : c->n[axis] - 1);
     } else {
-        s->cell[axis] = (uint16_t)(s->cell[axis] + (up ? 1 : -1));
+        cell[axis] = (uint16_t)(cell[axis] + (up ? 1 : -1));
     }
-    cells_insert(c, cells_of(c, s), i);
+    cells_insert(c, cells_of(c, cell), i);
     predict_ahead(e, i, axis, up ? 1 : -1);
 }
 
@@ -302,7 +307,7 @@ static void meet(struct engine *e, uint32_t i) {
     sphere_advance(&e->sphere[j], e->now);
     if (!collide(e, i, j))
         e->tally.stale++;
-    e->event[i].pair_time = e->event[j].pair_time = INFINITY;
+    e->sphere[i].pair_time = e->sphere[j].pair_time = INFINITY;
     engine_predict(e, i);
     engine_predict(e, j);
 }
@@ -310,25 +315,33 @@ static void meet(struct engine *e, uint32_t i) {
 /* -- memory of what is to come -------------------------------------------------------- */
 
 /* Large systems do not fit in the cache: what an event will read is asked for some
- * buckets of events before it is due, in three steps, as each shows where the next is.
- * Hints to the processor only: no result depends on them. */
-enum { AHEAD_FROM = 30000, AHEAD_RECORDS = 4, AHEAD_CELLS = 2, AHEAD_SPHERES = 1 };
+ * buckets of events before it is due, step by step, as each shows where the next is:
+ * the sphere; its partner and its cells; the partner's cells and its neighbours; the
+ * partner's neighbours.  Hints to the processor only: no result depends on them.
+ * always_inline is needed: gcc takes a function that does nothing but prefetch for one
+ * without effect, and leaves its calls out. */
+#define ALWAYS_INLINE __attribute__((always_inline))
+enum { AHEAD_FROM = 30000, AHEAD_RECORDS = 4, AHEAD_CELLS = 3, AHEAD_SPHERES = 2, AHEAD_LAST = 1 };
 
-static inline void ask_for_cells(const struct engine *e, const struct sphere *s) {
+static inline ALWAYS_INLINE void ask_for_cells(const struct engine *e, const uint16_t cell[3]) {
     const struct cells *c = &e->cells;
+    if (!is_inside(c, cell))
+        return;
     for (int z = -1; z <= 1; z++)
         for (int y = -1; y <= 1; y++) {
-            uint32_t row = cells_of(c, s) + (uint32_t)(z * (int)c->n[1] + y) * c->n[0];
+            uint32_t row = cells_of(c, cell) + (uint32_t)(z * (int)c->n[1] + y) * c->n[0];
             __builtin_prefetch(c->label + CELL_LABELS * (size_t)row - CELL_LABELS);
             __builtin_prefetch(c->label + CELL_LABELS * (size_t)row + 2 * CELL_LABELS - 1);
         }
 }
 
-static inline void ask_for_spheres(const struct engine *e, const struct sphere *s) {
+static inline ALWAYS_INLINE void ask_for_spheres(const struct engine *e, const uint16_t cell[3]) {
     const struct cells *c = &e->cells;
+    if (!is_inside(c, cell))
+        return;
     for (int z = -1; z <= 1; z++)
         for (int y = -1; y <= 1; y++) {
-            uint32_t row = cells_of(c, s) + (uint32_t)(z * (int)c->n[1] + y) * c->n[0];
+            uint32_t row = cells_of(c, cell) + (uint32_t)(z * (int)c->n[1] + y) * c->n[0];
             const uint32_t *label = c->label + CELL_LABELS * (size_t)row - CELL_LABELS;
             for (int k = 0; k < 3 * CELL_LABELS; k += CELL_LABELS) {
                 if (label[k] < e->count)
@@ -339,36 +352,45 @@ static inline void ask_for_spheres(const struct engine *e, const struct sphere *
         }
 }
 
-/* Is the event of i due in the bucket where it is, and not only parked there? */
-static inline bool is_due_within(const struct queue *q, uint32_t i, int buckets) {
-    return (q->event[i].time - q->origin) * q->per_width < (double)(q->present + buckets + 1);
+static inline ALWAYS_INLINE void ask_for_records(const struct engine *e, uint32_t i) {
+    __builtin_prefetch(&e->sphere[i]);
+    __builtin_prefetch(&e->event[i]);
+}
+
+/* The event of i is `buckets` ahead, if it is due there and not only parked. */
+static inline ALWAYS_INLINE void ask_for(const struct engine *e, uint32_t i, int buckets) {
+    const struct queue *q = &e->queue;
+    const struct event *v = &e->event[i];
+    if ((v->time - q->origin) * q->per_width >= (double)(q->present + buckets + 1))
+        return;
+    uint32_t j = e->sphere[i].pair_time <= v->time ? v->partner : QUEUE_NONE;
+    if (buckets == AHEAD_CELLS) {
+        ask_for_cells(e, v->cell);
+        if (j != QUEUE_NONE)
+            ask_for_records(e, j);
+    } else if (buckets == AHEAD_SPHERES) {
+        ask_for_spheres(e, v->cell);
+        if (j != QUEUE_NONE)
+            ask_for_cells(e, e->event[j].cell);
+    } else if (j != QUEUE_NONE) {
+        ask_for_spheres(e, e->event[j].cell);
+    }
 }
 
 static __attribute__((noinline)) void look_ahead(struct engine *e) {
     const struct queue *q = &e->queue;
-    const uint32_t *records = queue_ahead(q, AHEAD_RECORDS), *near = queue_ahead(q, AHEAD_CELLS);
-    const uint32_t *next = queue_ahead(q, AHEAD_SPHERES);
+    const uint32_t *records = queue_ahead(q, AHEAD_RECORDS);
     __builtin_prefetch(queue_ahead(q, AHEAD_RECORDS + 2));
     e->looked_at = q->present;
     for (int k = 0; k < QUEUE_SLOTS; k++)
-        if (records[k] != QUEUE_NONE) {
-            __builtin_prefetch(&e->sphere[records[k]]);
-            __builtin_prefetch(&e->event[records[k]]);
-        }
-    for (int k = 0; k < QUEUE_SLOTS; k++)
-        if (near[k] != QUEUE_NONE && is_due_within(q, near[k], AHEAD_CELLS)) {
-            uint32_t j = e->event[near[k]].partner;
-            if (is_inside(&e->cells, &e->sphere[near[k]]))
-                ask_for_cells(e, &e->sphere[near[k]]);
-            if (j != QUEUE_NONE) {
-                __builtin_prefetch(&e->sphere[j]);
-                __builtin_prefetch(&e->event[j]);
-            }
-        }
-    for (int k = 0; k < QUEUE_SLOTS; k++)
-        if (next[k] != QUEUE_NONE && is_due_within(q, next[k], AHEAD_SPHERES) &&
-            is_inside(&e->cells, &e->sphere[next[k]]))
-            ask_for_spheres(e, &e->sphere[next[k]]);
+        if (records[k] != QUEUE_NONE)
+            ask_for_records(e, records[k]);
+    for (int buckets = AHEAD_CELLS; buckets >= AHEAD_LAST; buckets--) {
+        const uint32_t *due = queue_ahead(q, buckets);
+        for (int k = 0; k < QUEUE_SLOTS; k++)
+            if (due[k] != QUEUE_NONE)
+                ask_for(e, due[k], buckets);
+    }
 }
 
 /* -- the loop ----------------------------------------------------------------------- */
@@ -394,7 +416,7 @@ static enum status run_events(struct engine *e, double until, struct fault *faul
         if (check_headway(e, v->time, i, fault) != STATUS_OK)
             return fault->status;
         e->now = v->time > e->now ? v->time : e->now;
-        if (v->pair_time <= v->time)
+        if (e->sphere[i].pair_time <= v->time)
             meet(e, i);
         else
             leave_cell(e, i);

@@ -24,7 +24,9 @@
  * event before; counters tell at the time of an event whether the partner has
  * since changed (then the sphere is predicted anew: a stale event).  The queue
  * is a calendar of one cache line a bucket with a heap for the present bucket
- * (queue.h).  Spheres are sorted by cell in memory at each rebuild.
+ * (queue.h).  Spheres are sorted by cell in memory at each rebuild; in a system too
+ * large for the cache, memory of coming events and of their partners' surroundings is
+ * asked for some buckets before they are due.
  *
  * Cost a collision: two predictions over 27 cells (15 spheres at packing .3,
  * 23 at .45), about one more for stale events, and passages of cells (.5 a

@@ -35,12 +35,12 @@ static void pack_sphere(const struct engine *e, size_t k, double *row) {
     for (int a = 0; a < 3; a++) {
         row[COLUMN_X + a] = s->x[a];
         row[COLUMN_W + a] = s->w[a];
-        row[COLUMN_CELL + a] = s->cell[a];
+        row[COLUMN_CELL + a] = v->cell[a];
         row[COLUMN_IMAGE + a] = e->image[k][a];
     }
     row[COLUMN_T] = s->t;
     row[COLUMN_TIME] = v->time;
-    row[COLUMN_PAIR_TIME] = v->pair_time;
+    row[COLUMN_PAIR_TIME] = s->pair_time;
     row[COLUMN_PARTNER] = v->partner;
     row[COLUMN_PARTNER_COUNT] = v->partner_count;
     row[COLUMN_COUNT] = v->count;
@@ -50,18 +50,18 @@ static void pack_sphere(const struct engine *e, size_t k, double *row) {
 
 static void unpack_sphere(struct engine *e, size_t k, const double *row) {
     struct sphere *s = &e->sphere[k];
-    *s = (struct sphere){.t = row[COLUMN_T]};
+    struct event *v = &e->event[k];
+    *s = (struct sphere){.t = row[COLUMN_T], .pair_time = row[COLUMN_PAIR_TIME]};
+    *v = (struct event){.time = row[COLUMN_TIME],
+                        .partner = (uint32_t)row[COLUMN_PARTNER],
+                        .partner_count = (uint32_t)row[COLUMN_PARTNER_COUNT],
+                        .count = (uint32_t)row[COLUMN_COUNT]};
     for (int a = 0; a < 3; a++) {
         s->x[a] = row[COLUMN_X + a];
         s->w[a] = row[COLUMN_W + a];
-        s->cell[a] = (uint16_t)row[COLUMN_CELL + a];
+        v->cell[a] = (uint16_t)row[COLUMN_CELL + a];
         e->image[k][a] = (int32_t)row[COLUMN_IMAGE + a];
     }
-    e->event[k] = (struct event){.time = row[COLUMN_TIME],
-                                 .pair_time = row[COLUMN_PAIR_TIME],
-                                 .partner = (uint32_t)row[COLUMN_PARTNER],
-                                 .partner_count = (uint32_t)row[COLUMN_PARTNER_COUNT],
-                                 .count = (uint32_t)row[COLUMN_COUNT]};
     e->last_hit[k] = row[COLUMN_LAST_HIT];
     e->id[k] = (uint32_t)row[COLUMN_ID];
 }
@@ -212,7 +212,7 @@ static enum status take_rows(struct engine *e, struct h5_reader *r, const double
     for (size_t k = 0; k < e->count; k++) {
         unpack_sphere(e, k, row + COLUMNS * k);
         e->place[e->id[k]] = (uint32_t)k;
-        cells_insert(&e->cells, cells_of(&e->cells, &e->sphere[k]), (uint32_t)k);
+        cells_insert(&e->cells, cells_of(&e->cells, e->event[k].cell), (uint32_t)k);
     }
     return STATUS_OK;
 }

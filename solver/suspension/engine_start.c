@@ -96,7 +96,7 @@ enum status engine_create(struct engine **out, const struct engine_setup *s, str
         return fault->status;
     }
     for (size_t i = 0; i < e->count; i++) {
-        e->event[i].time = e->event[i].pair_time = INFINITY;
+        e->event[i].time = e->sphere[i].pair_time = INFINITY;
         e->id[i] = e->place[i] = (uint32_t)i;
     }
     queue_rebuild(&e->queue, 0, 1);
@@ -154,7 +154,7 @@ static void predict_all(struct engine *e) {
     double sum = 0;
     size_t finite = 0;
     for (size_t i = 0; i < e->count; i++)
-        e->event[i].time = e->event[i].pair_time = INFINITY;
+        e->event[i].time = e->sphere[i].pair_time = INFINITY;
     queue_rebuild(&e->queue, e->now, 1);
     for (size_t i = 0; i < e->count; i++) {
         sphere_advance(&e->sphere[i], e->now);
@@ -184,16 +184,17 @@ enum status engine_set_state(struct engine *e, const double *position, const dou
     cells_clear(&e->cells);
     for (size_t i = 0; i < e->count; i++) {
         struct sphere *s = &e->sphere[i];
-        *s = (struct sphere){.t = 0};
+        struct event *v = &e->event[i];
+        *s = (struct sphere){.t = 0, .pair_time = INFINITY};
+        *v = (struct event){.time = INFINITY};
         for (int a = 0; a < 3; a++) {
             s->x[a] = position[3 * i + (size_t)a];
             s->w[a] = velocity[3 * i + (size_t)a];
-            s->cell[a] = cells_find(&e->cells, a, s->x[a]);
+            v->cell[a] = cells_find(&e->cells, a, s->x[a]);
         }
-        e->event[i] = (struct event){.time = INFINITY, .pair_time = INFINITY};
         e->last_hit[i] = -INFINITY;
         e->id[i] = e->place[i] = (uint32_t)i;
-        cells_insert(&e->cells, cells_of(&e->cells, s), (uint32_t)i);
+        cells_insert(&e->cells, cells_of(&e->cells, v->cell), (uint32_t)i);
     }
     e->placed = true;
     engine_rebuild(e);
@@ -276,7 +277,7 @@ static void rebase(struct engine *e) {
             s->w[a] *= slowing;
         catch_up(e, s);
         v->time = (v->time - S) * per;
-        v->pair_time = (v->pair_time - S) * per;
+        s->pair_time = (s->pair_time - S) * per;
         e->last_hit[i] = (e->last_hit[i] - S) * per;
     }
     e->growth_from -= S; /* there is no drag while diameters grow */

@@ -2,7 +2,7 @@
  * one for the queue.
  *
  * Neighbours read the first while they look for collisions: one cache line with
- * place, velocity and cell.  The place is that of the sphere's local time; now it
+ * place, velocity and when it next collides.  The place is that of the sphere's local time; now it
  * is at x + w (now - t).  All times are in the common clock (engine.h): w is the
  * velocity that the sphere would have at the clock's origin.
  */
@@ -17,15 +17,15 @@ struct sphere {
     double x[3];      /* (m), centre at time t */
     double t;         /* (s, common clock) */
     double w[3];      /* (m/s), dx/ds */
-    uint16_t cell[3]; /* tracked from passage to passage, never found from x again */
-    uint16_t spare;
+    double pair_time; /* (s, common clock) of its next collision; INFINITY: none known */
 };
 
 /* time = the earlier of pair_time and the time of leaving the cell (or meeting a wall). */
 struct event {
-    double time;            /* (s, common clock): the queue's key */
-    double pair_time;       /* of the collision with partner; INFINITY: none known */
-    uint32_t partner;       /* place in memory */
+    double time;      /* (s, common clock): the queue's key */
+    uint16_t cell[3]; /* tracked from passage to passage, never found from x again */
+    uint16_t spare;
+    uint32_t partner;       /* of the collision at pair_time: place in memory */
     uint32_t partner_count; /* the partner's count when this was predicted */
     uint32_t count;         /* changes of velocity of this sphere */
     uint32_t where;         /* kept by queue.c */

@@ -95,12 +95,13 @@ START_TEST(the_way_out_ends_on_the_first_plane) {
     int axis, along[3] = {0};
     for (int k = 0; k < 20000; k++) {
         struct sphere s = {.t = gsl_ran_flat(rng, -3, 3)};
+        uint16_t cell[3];
         for (int a = 0; a < 3; a++) {
             s.x[a] = gsl_ran_flat(rng, low[a], high[a]);
             s.w[a] = gsl_rng_uniform_int(rng, 5) == 0 ? 0 : gsl_ran_flat(rng, -0.7, 0.7);
-            s.cell[a] = cells_find(&c, a, s.x[a]);
+            cell[a] = cells_find(&c, a, s.x[a]);
         }
-        double dt = cells_exit(&c, &s, &axis);
+        double dt = cells_exit(&c, &s, cell, &axis);
         if (s.w[0] == 0 && s.w[1] == 0 && s.w[2] == 0) {
             ck_assert_double_eq(dt, INFINITY);
             continue;
@@ -109,9 +110,9 @@ START_TEST(the_way_out_ends_on_the_first_plane) {
         along[axis]++;
         for (int a = 0; a < 3; a++) {
             double x = s.x[a] + s.w[a] * dt;
-            double plane = c.edge[a][s.cell[a] + (s.w[a] > 0)];
-            ck_assert_double_ge(x, c.edge[a][s.cell[a]] - 1e-14);
-            ck_assert_double_le(x, c.edge[a][s.cell[a] + 1] + 1e-14);
+            double plane = c.edge[a][cell[a] + (s.w[a] > 0)];
+            ck_assert_double_ge(x, c.edge[a][cell[a]] - 1e-14);
+            ck_assert_double_le(x, c.edge[a][cell[a] + 1] + 1e-14);
             if (a == axis)
                 ck_assert_double_eq_tol(x, plane, 1e-14);
         }
