@@ -70,6 +70,10 @@ enum status h5_dims(struct h5_reader *r, const char *name, int *rank, size_t *di
 enum status h5_read(struct h5_reader *r, const char *name, size_t max_count, double **out,
                     size_t *count, struct fault *fault);
 
+/* The same into out[0 .. count-1]; STATUS_BAD_INPUT where it has not exactly count values. */
+enum status h5_read_exactly(struct h5_reader *r, const char *name, size_t count, double *out,
+                            struct fault *fault);
+
 /* One slab of the first dimension: value[index][...] into out[count], where
  * count must equal the product of the other dimensions. */
 enum status h5_read_slab(struct h5_reader *r, const char *name, size_t index, size_t count,

@@ -275,6 +275,20 @@ end:
     return status;
 }
 
+enum status h5_read_exactly(struct h5_reader *r, const char *name, size_t count, double *out,
+                            struct fault *fault) {
+    double *value = NULL;
+    size_t found = 0;
+    enum status status = h5_read(r, name, count, &value, &found, fault);
+    if (status == STATUS_OK && found != count)
+        status = fault_set(fault, STATUS_BAD_INPUT, "%s: %s has %zu values, this run needs %zu",
+                           r->path, name, found, count);
+    if (status == STATUS_OK)
+        memcpy(out, value, count * sizeof *out);
+    free(value);
+    return status;
+}
+
 enum status h5_read_slab(struct h5_reader *r, const char *name, size_t index, size_t count,
                          double *out, struct fault *fault) {
     struct array a;

@@ -124,26 +124,12 @@ done:
     return fault->status;
 }
 
-/* One dataset of exactly count values. */
-static enum status read_exactly(struct h5_reader *r, const char *name, size_t count, double *out,
-                                struct fault *fault) {
-    double *value = NULL;
-    size_t found = 0;
-    if (h5_read(r, name, count, &value, &found, fault) == STATUS_OK && found != count)
-        fault_set(fault, STATUS_BAD_INPUT, "%s: %s has %zu values, this run needs %zu", h5_path(r),
-                  name, found, count);
-    if (fault->status == STATUS_OK)
-        memcpy(out, value, count * sizeof *out);
-    free(value);
-    return fault->status;
-}
-
 static enum status load_labels(struct h5_reader *r, struct graingas *s, struct fault *fault) {
     struct grains *g = &s->grains;
     double *labels = malloc((LABELS * g->count + 1) * sizeof *labels);
     if (!labels)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
-    if (read_exactly(r, "state/labels", LABELS * g->count, labels, fault) == STATUS_OK)
+    if (h5_read_exactly(r, "state/labels", LABELS * g->count, labels, fault) == STATUS_OK)
         for (size_t i = 0; i < g->count; i++) {
             const double *label = labels + LABELS * i;
             g->id[i] = (int32_t)label[0];
@@ -184,9 +170,9 @@ enum status graingas_load(void *state, const char *path, struct fault *fault) {
     if (h5_open(path, &r, fault) != STATUS_OK)
         return fault->status;
     for (size_t k = 0; k < ITEM_COUNT; k++)
-        if (read_exactly(r, item[k].name, item[k].count, item[k].data, fault))
+        if (h5_read_exactly(r, item[k].name, item[k].count, item[k].data, fault))
             goto done;
-    if (read_exactly(r, "state/counters", COUNTER_COUNT, counter, fault) ||
+    if (h5_read_exactly(r, "state/counters", COUNTER_COUNT, counter, fault) ||
         load_labels(r, s, fault))
         goto done;
     unpack_counters(s, counter);

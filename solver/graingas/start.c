@@ -173,21 +173,6 @@ static void start_list(struct grains *g, const struct graingas_parameters *p) {
 
 /* -- from an earlier result --------------------------------------------------- */
 
-static enum status read_fixed(struct h5_reader *r, const char *name, size_t count, double *out,
-                              struct fault *fault) {
-    double *value = NULL;
-    size_t found = 0;
-    if (h5_read(r, name, count, &value, &found, fault) != STATUS_OK)
-        return fault->status;
-    if (found != count)
-        fault_set(fault, STATUS_BAD_INPUT, "%s: %s holds %zu values where the run has %zu grains",
-                  h5_path(r), name, found, count);
-    for (size_t i = 0; i < count && fault->status == STATUS_OK; i++)
-        out[i] = value[i];
-    free(value);
-    return fault->status;
-}
-
 static enum status read_last_frame(struct h5_reader *r, const char *name, size_t count, double *x,
                                    double *y, struct fault *fault) {
     int rank;
@@ -216,7 +201,7 @@ static enum status start_from_file(struct grains *g, const struct graingas_param
                          "start: from-file needs a start_file in the run file");
     if (read_last_frame(r, "particles/grains/position/value", g->count, g->x, g->y, fault) ||
         read_last_frame(r, "particles/grains/velocity/value", g->count, g->vx, g->vy, fault) ||
-        read_fixed(r, "particles/grains/radius", g->count, g->radius, fault))
+        h5_read_exactly(r, "particles/grains/radius", g->count, g->radius, fault))
         return fault->status;
     for (size_t i = 0; i < g->count; i++)
         if (!(g->radius[i] > 0 && 2 * g->radius[i] <= p->diameter_max_l * (1 + 1e-12)))

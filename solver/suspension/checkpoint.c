@@ -98,54 +98,38 @@ enum status suspension_save(const void *state, const char *path, struct fault *f
     return h5_commit(w, fault);
 }
 
-/* One dataset of exactly count values; free *out. */
-static enum status read_exactly(struct h5_reader *r, const char *name, size_t count, double **out,
-                                struct fault *fault) {
-    size_t found = 0;
-    *out = NULL;
-    if (h5_read(r, name, count, out, &found, fault) != STATUS_OK)
-        return fault->status;
-    if (found == count)
-        return STATUS_OK;
-    return fault_set(fault, STATUS_BAD_INPUT, "%s: %s has %zu values, this run needs %zu",
-                     h5_path(r), name, found, count);
-}
-
 static enum status load_reals(struct h5_reader *r, struct suspension *s, const struct numbers *n,
                               struct fault *fault) {
-    double *real = NULL, *below = NULL;
-    if (read_exactly(r, "state/reals", n->reals, &real, fault) == STATUS_OK &&
-        read_exactly(r, "state/below", s->layers.bins + 1, &below, fault) == STATUS_OK) {
+    double real[MAX_NUMBERS];
+    if (h5_read_exactly(r, "state/reals", n->reals, real, fault) == STATUS_OK &&
+        h5_read_exactly(r, "state/below", s->layers.bins + 1, s->layers.below, fault) == STATUS_OK)
         for (size_t k = 0; k < n->reals; k++)
             *n->real[k] = real[k];
-        memcpy(s->layers.below, below, (s->layers.bins + 1) * sizeof *below);
-    }
-    free(real);
-    free(below);
     return fault->status;
 }
 
 static enum status load_counters(struct h5_reader *r, struct suspension *s, const struct numbers *n,
                                  struct fault *fault) {
-    double *counter = NULL;
-    if (read_exactly(r, "state/counters", n->counters + 2, &counter, fault) == STATUS_OK) {
-        for (size_t k = 0; k < n->counters; k++)
-            *n->counter[k] = (long long)counter[k];
-        s->changes = (size_t)counter[n->counters];
-        s->noise.frozen = counter[n->counters + 1] != 0;
-        if (s->changes > s->parameters.phibar_times.count)
-            fault_set(fault, STATUS_BAD_INPUT, "%s: %zu changes of phibar; this run has %zu",
-                      h5_path(r), s->changes, s->parameters.phibar_times.count);
-    }
-    free(counter);
+    double counter[MAX_NUMBERS + 2];
+    if (h5_read_exactly(r, "state/counters", n->counters + 2, counter, fault) != STATUS_OK)
+        return fault->status;
+    for (size_t k = 0; k < n->counters; k++)
+        *n->counter[k] = (long long)counter[k];
+    s->changes = (size_t)counter[n->counters];
+    s->noise.frozen = counter[n->counters + 1] != 0;
+    if (s->changes > s->parameters.phibar_times.count)
+        fault_set(fault, STATUS_BAD_INPUT, "%s: %zu changes of phibar; this run has %zu",
+                  h5_path(r), s->changes, s->parameters.phibar_times.count);
     return fault->status;
 }
 
 static enum status load_streams(struct h5_reader *r, struct suspension *s, struct fault *fault) {
     gsl_rng *stream[MAX_STREAMS];
     size_t count = list_streams(s, stream), bytes = gsl_rng_size(s->noise_rng);
-    double *byte = NULL;
-    if (read_exactly(r, "state/streams", count * bytes, &byte, fault) == STATUS_OK)
+    double *byte = malloc((count * bytes + 1) * sizeof *byte);
+    if (!byte)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a checkpoint");
+    if (h5_read_exactly(r, "state/streams", count * bytes, byte, fault) == STATUS_OK)
         for (size_t k = 0; k < count; k++)
             for (size_t b = 0; b < bytes; b++)
                 ((unsigned char *)gsl_rng_state(stream[k]))[b] = (unsigned char)byte[k * bytes + b];

@@ -155,16 +155,8 @@ static enum status write_numbers(struct h5_writer *w, const char *group, const c
 static enum status read_numbers(struct h5_reader *r, const char *group, const char *name, double *n,
                                 size_t count, struct fault *fault) {
     char path[NAME_SIZE];
-    double *value = NULL;
-    size_t found = 0;
     snprintf(path, sizeof path, "%s/%s", group, name);
-    if (h5_read(r, path, count, &value, &found, fault) == STATUS_OK && found != count)
-        fault_set(fault, STATUS_BAD_INPUT, "%s: %s has %zu values, this run needs %zu", h5_path(r),
-                  path, found, count);
-    if (fault->status == STATUS_OK)
-        memcpy(n, value, count * sizeof *n);
-    free(value);
-    return fault->status;
+    return h5_read_exactly(r, path, count, n, fault);
 }
 
 enum status engine_save(const struct engine *e, struct h5_writer *w, const char *group,
