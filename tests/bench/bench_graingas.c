@@ -7,29 +7,14 @@
  * our multigrid and by hypre's Struct PFMG-PCG, from the same guess to the same
  * residual.  CPU time of one core; compare within one run only. */
 #include "solver/graingas/graingas.h"
+#include "tests/bench/bench.h"
 
 #include <HYPRE_struct_ls.h>
 #include <math.h>
 #include <mpi.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { TURNS = 40 };
-
-static double cpu_seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void stop_on(const struct fault *fault) {
-    if (fault->status == STATUS_OK)
-        return;
-    fprintf(stderr, "bench: %s\n", fault->text);
-    exit(fault_exit_code(fault->status));
-}
 
 static struct graingas *paper_run(void) {
     static const char yaml[] = "grains: 18104\nwidth_l: 60\nheight_l: 92\n";

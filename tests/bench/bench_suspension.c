@@ -11,26 +11,11 @@
 #include "common/random.h"
 #include "solver/suspension/engine.h"
 #include "solver/suspension/predict.h"
+#include "tests/bench/bench.h"
 
 #include <gsl/gsl_randist.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <time.h>
 
 enum { SMALL = 10000, TURNS = 5, NEIGHBOURS = 24 };
-
-static double cpu_seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static void stop_on(const struct fault *fault) {
-    if (fault->status == STATUS_OK)
-        return;
-    fprintf(stderr, "bench: %s\n", fault->text);
-    exit(fault_exit_code(fault->status));
-}
 
 static struct engine *new_engine(size_t count, double side) {
     struct fault fault = FAULT_NONE;
