@@ -157,11 +157,8 @@ static enum status build(const struct figure_input *in, struct figure_output *ou
                          struct fault *fault) {
     struct drawing d = {.in = in, .arena = out->arena, .least = INFINITY};
     enum status status = figure_needs(in, "bubbles", fault);
-    if (!status && in->data->point_count > MAX_POINTS)
-        status = fault_set(fault, STATUS_BAD_INPUT,
-                           "%zu points cannot be told apart in one figure, %d can: choose with "
-                           "`points`",
-                           in->data->point_count, (int)MAX_POINTS);
+    if (!status)
+        status = figure_at_most(in, MAX_POINTS, fault);
     if (!status)
         status = add_points(&d, fault);
     if (!status && d.dots == 0)

@@ -287,9 +287,8 @@ static enum status tabulate(struct drawing *d, struct figure_output *out, struct
 static enum status build(const struct figure_input *in, struct figure_output *out,
                          struct fault *fault) {
     struct drawing d = {.in = in, .arena = out->arena};
-    if (strcmp(in->file->observable[in->observable[0]].recipe->name, "settling") != 0)
-        return fault_set(fault, STATUS_BAD_INPUT,
-                         "settling-curve draws an observable of the recipe settling");
+    if (figure_needs(in, "settling", fault))
+        return fault->status;
     d.law[0].own = prediction_find("settling-own-law-published");
     d.law[1].own = prediction_find("settling-own-law-corrected");
     d.law[LAWS].own = d.eq20 = prediction_find("settling-eq20");

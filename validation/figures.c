@@ -70,6 +70,14 @@ enum status figure_needs(const struct figure_input *in, const char *recipe, stru
                      in->wanted->recipe, recipe, has);
 }
 
+enum status figure_at_most(const struct figure_input *in, size_t points, struct fault *fault) {
+    if (in->data->point_count <= points)
+        return STATUS_OK;
+    return fault_set(fault, STATUS_BAD_INPUT,
+                     "%zu points cannot be told apart in one figure, %zu can: choose with `points`",
+                     in->data->point_count, points);
+}
+
 static enum status too_many(struct fault *fault) {
     return fault_set(fault, STATUS_BAD_INPUT, "more than %d figures of one kind", (int)FIGURES_MAX);
 }

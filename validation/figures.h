@@ -93,6 +93,8 @@ double figure_mean(const struct figure_input *in, const struct measured_point *p
                    const char *output, double *error);
 /* Is the first observable of `of:` one of this recipe?  The fault says so if not. */
 enum status figure_needs(const struct figure_input *in, const char *recipe, struct fault *fault);
+/* Are there no more points than can be told apart? */
+enum status figure_at_most(const struct figure_input *in, size_t points, struct fault *fault);
 
 /* figure_text.c: names of parameters as a reader wants them.  "flux_l_per_tau" is the quantity
  * "flux" in l/tau: "flux (l/tau)" on an axis, "flux 0.2 l/tau" of a point.  NULL: no memory. */
