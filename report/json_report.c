@@ -4,7 +4,8 @@
  *      "modified", "modification", "verdict", "counts": {pass, fail, inconclusive, skipped},
  *      "checks": [{case, point, check, observable, unit, measured, uncertainty, expected,
  *                  expected_uncertainty, tolerance, comparison, kind, verdict, because, reason,
- *                  runs: [id]}],
+ *                  runs: [id], values: [number], seeds: [integer], detectable, alarm_rate,
+ *                  since, bits}],
  *      "skipped": [{case, reason}],
  *      "provenance": {name: value}}
  *
@@ -45,6 +46,24 @@ static const char *reason_of(const struct report_row *row) {
     return isfinite(row->tolerance) ? "" : "there is no finite tolerance";
 }
 
+/* What each seed gave, and what the check can and cannot tell. */
+static void put_values(struct json *j, const struct report_row *row) {
+    json_key(j, "values");
+    json_begin_array(j);
+    for (size_t i = 0; i < row->value_count; i++)
+        json_real(j, row->values[i]);
+    json_end_array(j);
+    json_key(j, "seeds");
+    json_begin_array(j);
+    for (size_t i = 0; i < row->value_count; i++)
+        json_integer(j, row->seeds[i]);
+    json_end_array(j);
+    put_real(j, "detectable", row->detectable);
+    put_real(j, "alarm_rate", row->alarm_rate);
+    put_text(j, "since", row->since);
+    put_text(j, "bits", row->bits);
+}
+
 static void put_row(struct json *j, const struct report_row *row) {
     json_begin_object(j);
     put_text(j, "case", row->case_name);
@@ -67,6 +86,7 @@ static void put_row(struct json *j, const struct report_row *row) {
     for (size_t i = 0; i < row->run_count; i++)
         json_text(j, row->runs[i]);
     json_end_array(j);
+    put_values(j, row);
     json_end_object(j);
 }
 

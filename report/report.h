@@ -32,6 +32,14 @@ struct report_row {
     const char *const *runs; /* run ids, runs[0 .. run_count-1] */
     size_t run_count;
     double seconds; /* wall time of its runs */
+
+    size_t value_count;     /* what each seed gave: 0 where a row has no values of single seeds */
+    const double *values;   /* values[0 .. value_count-1], unit of measured; NaN: missing */
+    const long long *seeds; /* seeds[i] gave values[i] */
+    double detectable;      /* smallest change seen with 95 %, unit of measured; NaN: not known */
+    double alarm_rate;      /* probability of no pass for unchanged code; NaN: not known */
+    const char *since;      /* date since which the disagreement is known, or NULL */
+    const char *bits;       /* what the bits of its runs say against the reference, or NULL */
 };
 
 enum series_style { SERIES_POINTS, SERIES_LINE, SERIES_DASHED, SERIES_LINE_POINTS };

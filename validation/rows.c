@@ -81,6 +81,20 @@ static enum status list_runs(struct clerk *k, const struct measured_point *p,
     return STATUS_OK;
 }
 
+/* value[i] is what run i of the point gave. */
+static enum status list_values(struct clerk *k, const struct measured_point *p, const double *value,
+                               struct report_row *row) {
+    long long *seeds = arena_take(&k->rows->arena, p->run_count, sizeof *seeds);
+    if (seeds == NULL)
+        return no_memory(k);
+    for (size_t i = 0; i < p->run_count; i++)
+        seeds[i] = p->run[i].run->seed;
+    row->value_count = p->run_count;
+    row->values = value;
+    row->seeds = seeds;
+    return STATUS_OK;
+}
+
 /* -- checks --------------------------------------------------------------------- */
 
 static enum status begin_row(struct clerk *k, const struct case_check *check, const char *point,
@@ -93,7 +107,9 @@ static enum status begin_row(struct clerk *k, const struct case_check *check, co
                                .unit = check->unit,
                                .comparison = case_comparison_name(check->comparison),
                                .kind = case_kind_name(check->kind),
-                               .because = check->because};
+                               .because = check->because,
+                               .detectable = NAN,
+                               .alarm_rate = NAN};
     if (check->per.prediction != NULL)
         row->observable = arena_text(a, "%s / %s", check->observable, check->per.prediction->name);
     return row->observable == NULL ? no_memory(k) : STATUS_OK;
@@ -145,6 +161,8 @@ static enum status judge_point(struct clerk *k, size_t index, const struct measu
     enum status status = begin_row(k, check, p->point->name, &row);
     if (status == STATUS_OK)
         status = list_runs(k, p, &row);
+    if (status == STATUS_OK)
+        status = list_values(k, p, measured, &row);
     row.repeat = repeat_point(k, p);
     return status == STATUS_OK ? end_row(k, &q, p, check, &row) : status;
 }
@@ -222,7 +240,9 @@ static enum status report_failure(struct clerk *k, const struct measured_point *
                              .log_end = r->log_end,
                              .runs = runs,
                              .run_count = 1,
-                             .seconds = isfinite(r->seconds) ? r->seconds : 0};
+                             .seconds = isfinite(r->seconds) ? r->seconds : 0,
+                             .detectable = NAN,
+                             .alarm_rate = NAN};
     return row.check == NULL ? no_memory(k) : add(k, &row, NULL, NULL);
 }
 

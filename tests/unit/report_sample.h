@@ -21,6 +21,8 @@ struct sample {
     struct report_table table;
     double x[4], y[4], error[4], line[4], radius[4], shade[4];
     const char *heading[2], *cell[2], *runs[2];
+    double values[2];
+    long long seeds[2];
 };
 
 static inline struct report_row sample_row(const char *name, const char *point, const char *check,
@@ -41,7 +43,9 @@ static inline struct report_row sample_row(const char *name, const char *point, 
                                .because = "four seeds of an independent code",
                                .reason = "1.2 lies within 1.21 ± 0.036",
                                .repeat = "bedsim run 'a b.yaml' --seed 1101",
-                               .seconds = 1.37};
+                               .seconds = 1.37,
+                               .detectable = (double)NAN,
+                               .alarm_rate = (double)NAN};
 }
 
 static inline void sample_rows(struct sample *s) {
@@ -52,6 +56,10 @@ static inline void sample_rows(struct sample *s) {
     s->first[1].reason = "1.3137 lies above 1.2463";
     s->first[1].runs = s->runs;
     s->first[1].run_count = 2;
+    s->first[1].values = s->values;
+    s->first[1].seeds = s->seeds;
+    s->first[1].value_count = 2;
+    s->first[1].detectable = .0473;
     s->first[2] = sample_row(name, "height_l=82", "own law", 1.2437);
     s->first[2].verdict = VERDICT_INCONCLUSIVE;
     s->first[2].reason = "the interval crosses 1.2463";
@@ -107,6 +115,10 @@ static inline void sample_fill(struct sample *s) {
     memset(s, 0, sizeof *s);
     s->runs[0] = "graingas.sedimentation.1a2b3c4d-s1101";
     s->runs[1] = "graingas.sedimentation.1a2b3c4d-s1102";
+    s->values[0] = 1.3057;
+    s->values[1] = 1.3217;
+    s->seeds[0] = 1101;
+    s->seeds[1] = 1102;
     sample_rows(s);
     sample_drawings(s);
     s->cases[0] = (struct report_case){.name = "graingas/sedimentation",

@@ -26,7 +26,9 @@ START_TEST(every_row_has_every_member) {
         "case",      "point",    "check",       "observable",
         "unit",      "measured", "uncertainty", "expected",
         "tolerance", "kind",     "verdict",     "because",
-        "reason",    "runs",     "comparison",  "expected_uncertainty"};
+        "reason",    "runs",     "comparison",  "expected_uncertainty",
+        "values",    "seeds",    "detectable",  "alarm_rate",
+        "since",     "bits"};
     struct sample s;
     struct fault fault = FAULT_NONE;
     struct yaml_document *document;
@@ -43,6 +45,11 @@ START_TEST(every_row_has_every_member) {
     }
     ck_assert_str_eq(text_at(&checks->child[1], "verdict"), "fail");
     ck_assert_uint_eq(yaml_get(&checks->child[1], "runs")->count, 2);
+    ck_assert_str_eq(yaml_get(&checks->child[1], "values")->child[1].text, "1.3217000000000001");
+    ck_assert_str_eq(yaml_get(&checks->child[1], "seeds")->child[1].text, "1102");
+    ck_assert_uint_eq(yaml_get(&checks->child[0], "values")->count, 0);
+    ck_assert_str_eq(text_at(&checks->child[1], "detectable"), "0.047300000000000002");
+    ck_assert_str_eq(text_at(&checks->child[0], "alarm_rate"), "null");
     ck_assert_str_eq(text_at(&checks->child[3], "case"), SAMPLE_HOSTILE);
     ck_assert_str_eq(text_at(&yaml_get(root, "skipped")->child[0], "reason"), "no time | today");
     yaml_free(document);

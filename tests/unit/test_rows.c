@@ -94,6 +94,12 @@ START_TEST(points_and_groups_become_rows) {
     ck_assert_str_eq(rows->row[1].point, "darcy=published,step=0.2");
     ck_assert_uint_eq(rows->row[1].run_count, 2);
     ck_assert_double_eq(rows->row[1].seconds, 0.5);
+    ck_assert_uint_eq(rows->row[1].value_count, 2);
+    for (size_t i = 0; i < 2; i++) {
+        ck_assert_int_eq(rows->row[1].seeds[i], 11 + (int)i);
+        ck_assert_double_eq(rows->row[1].values[i], 1.37 + 1e-4 * (11 + (double)i));
+    }
+    ck_assert(isnan(rows->row[1].detectable) && isnan(rows->row[1].alarm_rate));
     ck_assert_ptr_eq(rows->point[1], &s.m->point[1]);
     ck_assert_str_eq(rows->row[4].point, "darcy=corrected");
     ck_assert_uint_eq(rows->row[4].run_count, 6);
