@@ -334,8 +334,10 @@ static void release_held(struct contacts *c, const struct grains *g) {
     }
     for (size_t n = 0; n < c->count; n++) {
         struct contact *k = &c->contact[n];
+        if (!k->held)
+            continue;
         double a = c->body[k->i].inverse_mass, b = c->body[k->j].inverse_mass;
-        k->held = k->held && (a == 0 || b == 0);
+        k->held = a == 0 || b == 0;
         k->reduced_mass = 1 / (a + b);
     }
 }
