@@ -32,7 +32,9 @@ enum key {
     KEY_FAILED,
     KEY_TIMEOUT,
     KEY_SEED_OFFSET,
-    KEY_STALE
+    KEY_STALE,
+    KEY_REFERENCES,
+    KEY_SEEDS
 };
 
 /* Lists that the options point into. */
@@ -107,6 +109,9 @@ static error_t parse_choice(int key, char *text, struct line *l, struct argp_sta
     case KEY_TIMEOUT:
         o->limit_s = read_number(state, "--timeout", text, 0.001, 1e9, false);
         return 0;
+    case KEY_SEEDS:
+        o->seed_count = (size_t)read_number(state, "--seeds", text, 1, 100000, true);
+        return 0;
     case KEY_SEED_OFFSET:
         o->seed_offset = (long long)read_number(state, "--seed-offset", text, 0, 1e15, true);
         return 0;
@@ -121,6 +126,9 @@ static error_t parse(int key, char *text, struct argp_state *state) {
     switch (key) {
     case KEY_CASES:
         o->cases_folder = text;
+        return 0;
+    case KEY_REFERENCES:
+        o->references_folder = text;
         return 0;
     case KEY_TIER:
         read_tier(state, o, text);
@@ -156,19 +164,23 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 
 #define OPTION_CASES                                                                               \
     { "cases", KEY_CASES, "DIR", 0, "Folder of case files", 0 }
+#define OPTION_REFERENCES                                                                          \
+    { "references", KEY_REFERENCES, "DIR", 0, "Folder of stored references", 0 }
 #define OPTION_TIER                                                                                \
     { "tier", KEY_TIER, "TIER", 0, "smoke (default), paper or large", 0 }
 #define OPTION_TAG                                                                                 \
     { "tag", KEY_TAG, "TAG", 0, "Only cases with this tag (may be repeated)", 0 }
 
-static const struct argp_option list_options[] = {OPTION_CASES, OPTION_TIER, OPTION_TAG, {0}};
+static const struct argp_option list_options[] = {
+    OPTION_CASES, OPTION_REFERENCES, OPTION_TIER, OPTION_TAG, {0}};
 static const struct argp_option show_options[] = {OPTION_CASES, OPTION_TIER, {0}};
-static const struct argp_option check_options[] = {OPTION_CASES, {0}};
+static const struct argp_option check_options[] = {OPTION_CASES, OPTION_REFERENCES, {0}};
 static const struct argp_option no_options[] = {{0}};
 static const struct argp_option clean_options[] = {
     {"stale", KEY_STALE, 0, 0, "Only results of other solver builds than the last run's", 0}, {0}};
 static const struct argp_option run_options[] = {
     OPTION_CASES,
+    OPTION_REFERENCES,
     OPTION_TIER,
     OPTION_TAG,
     {"out", KEY_OUT, "DIR", 0, "Folder of results (default bedcheck-out/TIER)", 0},
@@ -179,6 +191,7 @@ static const struct argp_option run_options[] = {
     {"exitfirst", 'x', 0, 0, "Start no more runs after the first failed check", 0},
     {"skip", KEY_SKIP, "CASE=reason", 0, "Leave a case out, and say so in the report", 0},
     {"timeout", KEY_TIMEOUT, "S", 0, "Wall-clock limit of each run instead of its case's", 0},
+    {"seeds", KEY_SEEDS, "K", 0, "K seeds for every point, whatever its case says", 0},
     {"seed-offset", KEY_SEED_OFFSET, "K", 0, "Add K to every seed: fresh seeds", 0},
     {"set", KEY_SET, "parameter=value", 0,
      "Override the solver behind the judge's back: expectations stay, the report is MODIFIED", 0},
@@ -283,6 +296,7 @@ static int perform(const struct command *command, struct line *l) {
     struct console console = {
         .out = stdout, .errors = stderr, .live = isatty(2) == 1 && getenv("CI") == NULL};
     char *cases = find_beside("../../validation/cases"), *solver = find_solver();
+    char *references = find_beside("../../reference");
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     struct command_options *o = &l->o;
     int code = 2;
@@ -294,6 +308,8 @@ static int perform(const struct command *command, struct line *l) {
     o->environment = environ;
     if (o->cases_folder == NULL && !command->takes_folder)
         o->cases_folder = cases;
+    if (o->references_folder == NULL && !command->takes_folder)
+        o->references_folder = references;
     if (o->solver == NULL)
         o->solver = solver == NULL ? "bedsim" : solver;
     if (o->jobs == 0)
@@ -305,6 +321,7 @@ static int perform(const struct command *command, struct line *l) {
     else
         code = command->run(o, &console);
     free(cases);
+    free(references);
     free(solver);
     return code;
 }

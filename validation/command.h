@@ -17,17 +17,19 @@ struct console {
 };
 
 struct command_options {
-    const char *cases_folder; /* NULL: what the folder's record says (check, report) */
-    const char *out;          /* folder of results */
-    const char *solver;       /* a program's name or path */
-    const char *path_list;    /* value of PATH, or NULL */
-    char *const *environment; /* for the solver */
+    const char *cases_folder;      /* NULL: what the folder's record says (check, report) */
+    const char *references_folder; /* NULL: what the folder's record says */
+    const char *out;               /* folder of results */
+    const char *solver;            /* a program's name or path */
+    const char *path_list;         /* value of PATH, or NULL */
+    char *const *environment;      /* for the solver */
     const char *const *pattern, *const *tag, *const *skip, *const *setting;
     size_t pattern_count, tag_count, skip_count, setting_count;
     enum tier tier;
     bool tier_given, dry_run, failed, stop_at_failure, stale;
     size_t jobs;
-    double limit_s; /* --timeout; 0: as the cases say */
+    size_t seed_count; /* --seeds; 0: as the cases say */
+    double limit_s;    /* --timeout; 0: as the cases say */
     long long seed_offset;
 };
 

@@ -4,7 +4,7 @@
 #include "common/file.h"
 #include "validation/desk.h"
 #include "validation/earlier.h"
-#include "validation/selection.h"
+#include "validation/review.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -63,7 +63,8 @@ static enum status choose_cases(struct work *w) {
         request.pattern_count = w->earlier.count;
         request.tier = w->earlier.tier;
     }
-    if (selection_make(&request, &w->selection, w->fault) != STATUS_OK)
+    if (selection_make(&request, &w->selection, w->fault) != STATUS_OK ||
+        review_set_seeds(w->selection, o->seed_count, w->fault) != STATUS_OK)
         return w->fault->status;
     return plan_make(w->selection->order, w->selection->count,
                      (const struct case_file *const *)w->selection->all, w->selection->all_count,
@@ -199,11 +200,13 @@ static enum status write_record(struct work *w, struct folder_record *record) {
         skip[i] = p->cases[i].skip_reason == NULL ? "" : p->cases[i].skip_reason;
     }
     record->cases_folder = w->o->cases_folder;
+    record->references_folder = w->o->references_folder;
     record->tier = case_tier_name(p->tier);
     record->started = started;
     record->solver = w->solver;
     record->solver_key = w->solver_key.hex;
     record->seed_offset = w->o->seed_offset;
+    record->seed_count = w->o->seed_count;
     record->case_count = p->case_count;
     record->case_name = name;
     record->skip_reason = skip;

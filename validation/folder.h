@@ -33,9 +33,11 @@ const char *folder_path(const struct folder *f);
 struct folder_record {
     struct arena arena; /* of a record that was read */
     const char *cases_folder, *tier, *started;
-    const char *solver;     /* path, as it was resolved */
-    const char *solver_key; /* digest of its bytes */
+    const char *references_folder; /* NULL: none, or a record of an earlier version */
+    const char *solver;            /* path, as it was resolved */
+    const char *solver_key;        /* digest of its bytes */
     long long seed_offset;
+    size_t seed_count; /* --seeds; 0: as the cases say */
     size_t case_count, setting_count;
     const char *const *case_name;   /* selected cases */
     const char *const *skip_reason; /* skip_reason[0 .. case_count-1]: "" where it is run */

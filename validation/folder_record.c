@@ -13,11 +13,13 @@ enum { MAX_RECORD_BYTES = 1 << 20 };
 static const struct schema_field fields[] = {
     {"format", SCHEMA_TEXT, true, 0, 0, NULL},
     {"cases_folder", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"references_folder", SCHEMA_TEXT, false, 0, 0, NULL},
     {"tier", SCHEMA_TEXT, true, 0, 0, NULL},
     {"started", SCHEMA_TEXT, true, 0, 0, NULL},
     {"solver", SCHEMA_TEXT, true, 0, 0, NULL},
     {"solver_key", SCHEMA_TEXT, true, 0, 0, NULL},
     {"seed_offset", SCHEMA_INTEGER, true, 0, 1e15, NULL},
+    {"seeds", SCHEMA_INTEGER, false, 0, 1e6, NULL},
     {"settings", SCHEMA_LIST, true, 0, 0, NULL},
     {"cases", SCHEMA_LIST, true, 0, 0, NULL},
 };
@@ -54,11 +56,13 @@ enum status folder_write_record(const struct folder *f, const struct folder_reco
     }
     fputs("# What bedcheck was asked for in this folder.\nformat: bedcheck-results 1\n", out);
     write_pair(out, "cases_folder", r->cases_folder);
+    if (r->references_folder != NULL)
+        write_pair(out, "references_folder", r->references_folder);
     write_pair(out, "tier", r->tier);
     write_pair(out, "started", r->started);
     write_pair(out, "solver", r->solver);
     write_pair(out, "solver_key", r->solver_key);
-    fprintf(out, "seed_offset: %lld\nsettings: [", r->seed_offset);
+    fprintf(out, "seed_offset: %lld\nseeds: %zu\nsettings: [", r->seed_offset, r->seed_count);
     for (size_t i = 0; i < r->setting_count; i++) {
         fputs(i == 0 ? "" : ", ", out);
         write_quoted(out, r->setting[i]);
@@ -121,6 +125,22 @@ static enum status read_settings(const struct yaml_node *list, struct folder_rec
     return STATUS_OK;
 }
 
+/* What records of earlier versions do not have. */
+static enum status read_additions(const struct yaml_node *root, struct folder_record *out,
+                                  struct fault *fault) {
+    const struct yaml_node *references = yaml_get(root, "references_folder");
+    const struct yaml_node *seeds = yaml_get(root, "seeds");
+    long long count = 0;
+    if (references != NULL) {
+        out->references_folder = arena_copy(&out->arena, references->text);
+        if (out->references_folder == NULL)
+            return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", root->file);
+    }
+    enum status status = seeds == NULL ? STATUS_OK : yaml_integer(seeds, &count, fault);
+    out->seed_count = (size_t)count;
+    return status;
+}
+
 static enum status read_record(const struct yaml_node *root, struct folder_record *out,
                                struct fault *fault) {
     if (schema_check(root, "record", fields, sizeof fields / sizeof *fields, fault) != STATUS_OK)
@@ -136,6 +156,8 @@ static enum status read_record(const struct yaml_node *root, struct folder_recor
         out->solver == NULL || out->solver_key == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", root->file);
     enum status status = yaml_integer(yaml_get(root, "seed_offset"), &out->seed_offset, fault);
+    if (status == STATUS_OK)
+        status = read_additions(root, out, fault);
     if (status == STATUS_OK)
         status = read_settings(yaml_get(root, "settings"), out, fault);
     return status == STATUS_OK ? read_cases(yaml_get(root, "cases"), out, fault) : status;
