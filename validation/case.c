@@ -43,6 +43,31 @@ bool case_name_is_safe(const char *name) {
     return inside && strlen(name) < 128;
 }
 
+bool case_parameter_name_is_good(const char *name) {
+    static const char letters[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+    size_t length = strlen(name);
+    return length > 0 && length < 128 && name[0] != '-' && strspn(name, letters) == length;
+}
+
+static bool is_line(const char *text) {
+    for (const char *p = text; *p != '\0'; p++) {
+        if ((unsigned char)*p < ' ' || *p == 127)
+            return false;
+    }
+    return *text != '\0';
+}
+
+bool case_value_is_good(const struct yaml_node *n) {
+    if (n->kind == YAML_SCALAR)
+        return is_line(n->text);
+    for (size_t i = 0; n->kind == YAML_LIST && i < n->count; i++) {
+        if (n->child[i].kind != YAML_SCALAR || !is_line(n->child[i].text))
+            return false;
+    }
+    return n->kind == YAML_LIST;
+}
+
 bool case_value_equal(const char *a, const char *b) {
     if (strcmp(a, b) == 0)
         return true;
@@ -106,14 +131,116 @@ const char *case_value_text(struct arena *a, const struct yaml_node *value) {
     return text == NULL ? NULL : arena_text(a, "%s]", text);
 }
 
-void case_point(const struct case_tier *t, size_t point, struct case_parameter *out) {
-    memcpy(out, t->parameter, t->parameter_count * sizeof *out);
+/* In place of the parameter of that name, else at the end. */
+static size_t put(struct case_parameter *out, size_t count, const struct case_parameter *p) {
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(out[i].name, p->name) == 0) {
+            out[i] = *p;
+            return count;
+        }
+    }
+    out[count] = *p;
+    return count + 1;
+}
+
+/* What the point's reading adds to what is there. */
+static size_t put_reading(const struct case_tier *t, struct case_parameter *out, size_t count) {
+    const char *name = case_reading(out, count);
+    const struct yaml_node *sets =
+        name == NULL || t->readings == NULL ? NULL : readings_parameters(t->readings, name);
+    for (size_t i = 0; sets != NULL && i < sets->count; i++) {
+        const struct yaml_node *n = &sets->child[i];
+        if (case_parameter_find(out, count, n->key) == NULL)
+            out[count++] = (struct case_parameter){.name = n->key, .value = n, .reading = name};
+    }
+    return count;
+}
+
+size_t case_point(const struct case_tier *t, size_t point, struct case_parameter *out) {
+    size_t count = t->parameter_count + t->axis_count, fixed = count;
+    if (t->parameter_count > 0)
+        memcpy(out, t->parameter, t->parameter_count * sizeof *out);
     for (size_t i = t->axis_count; i > 0; i--) {
         const struct case_axis *axis = &t->axis[i - 1];
+        const struct yaml_node *value = &axis->list->child[point % axis->list->count];
         out[t->parameter_count + i - 1] = (struct case_parameter){
-            .name = axis->name, .value = &axis->list->child[point % axis->list->count]};
+            .name = axis->name,
+            .value = value,
+            .label = axis->labels != NULL || strcmp(axis->name, "reading") == 0,
+            .sets = axis->labels == NULL ? NULL : case_label_find(axis->labels, value->text)};
         point /= axis->list->count;
     }
+    for (size_t i = 0; i < fixed; i++) {
+        const struct yaml_node *sets = out[i].sets;
+        for (size_t k = 0; sets != NULL && k < sets->count; k++) {
+            const struct yaml_node *n = &sets->child[k];
+            struct case_parameter p = {
+                .name = n->key, .value = n, .label = strcmp(n->key, "reading") == 0};
+            count = put(out, count, &p);
+        }
+    }
+    return put_reading(t, out, count);
+}
+
+const struct yaml_node *case_label_find(const struct yaml_node *labels, const char *label) {
+    for (size_t i = 0; i < labels->count; i++) {
+        if (case_value_equal(labels->child[i].key, label))
+            return &labels->child[i];
+    }
+    return NULL;
+}
+
+size_t case_axis_of(const struct case_tier *t, const char *name) {
+    size_t i = 0;
+    while (i < t->axis_count && strcmp(t->axis[i].name, name) != 0)
+        i++;
+    if (i < t->axis_count)
+        return i;
+    for (i = 0; i < t->axis_count; i++) {
+        const struct case_axis *a = &t->axis[i];
+        bool every = a->labels != NULL;
+        for (size_t k = 0; every && k < a->list->count; k++)
+            every = yaml_get(case_label_find(a->labels, a->list->child[k].text), name) != NULL;
+        if (every)
+            return i;
+    }
+    return t->axis_count;
+}
+
+bool case_points_agree(const struct case_tier *t, const struct case_parameter *p,
+                       const struct case_parameter *q, size_t but_axis) {
+    for (size_t i = 0; i < t->axis_count; i++) {
+        if (i != but_axis && p[t->parameter_count + i].value != q[t->parameter_count + i].value)
+            return false;
+    }
+    return true;
+}
+
+const char *case_reading(const struct case_parameter *p, size_t count) {
+    const struct yaml_node *n = case_parameter_find(p, count, "reading");
+    return n != NULL && n->kind == YAML_SCALAR ? n->text : NULL;
+}
+
+static const char *join(struct arena *a, const char *text, const char *name, const char *value) {
+    if (text == NULL || value == NULL)
+        return NULL;
+    return arena_text(a, "%s%s%s=%s", text, *text == '\0' ? "" : ",", name, value);
+}
+
+const char *case_point_text(struct arena *a, const struct case_tier *t,
+                            const struct case_parameter *p, size_t count, size_t but_axis) {
+    const char *text = "", *reading = case_reading(p, count);
+    bool swept = false;
+    for (size_t i = 0; i < t->axis_count; i++)
+        swept |= strcmp(t->axis[i].name, "reading") == 0;
+    if (reading != NULL && !swept)
+        text = join(a, text, "reading", reading);
+    for (size_t i = 0; i < t->axis_count && text != NULL; i++) {
+        const struct case_parameter *at = &p[t->parameter_count + i];
+        if (i != but_axis)
+            text = join(a, text, at->name, case_value_text(a, at->value));
+    }
+    return text != NULL && *text == '\0' ? "single" : text;
 }
 
 size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count) {
@@ -128,6 +255,7 @@ void case_free(struct case_file *c) {
     if (c == NULL)
         return;
     case_free(c->runs);
+    readings_free(c->readings);
     yaml_free(c->document);
     arena_free(&c->arena);
     free(c);

@@ -17,6 +17,7 @@
 #include "validation/across.h"
 #include "validation/arena.h"
 #include "validation/prediction.h"
+#include "validation/readings.h"
 #include "validation/recipe.h"
 
 enum tier { TIER_SMOKE, TIER_PAPER, TIER_LARGE, TIER_COUNT };
@@ -24,11 +25,15 @@ enum tier { TIER_SMOKE, TIER_PAPER, TIER_LARGE, TIER_COUNT };
 struct case_parameter {
     const char *name;
     const struct yaml_node *value; /* a scalar or a list of scalars */
+    bool label; /* stands for other parameters, and no solver sees it: `reading`, a labelled axis */
+    const struct yaml_node *sets; /* what a label stands for; NULL for `reading`, see readings.h */
+    const char *reading;          /* the reading that put it there, or NULL */
 };
 
 struct case_axis { /* one swept parameter */
     const char *name;
-    const struct yaml_node *list; /* its values: list->child[0 .. count-1] */
+    const struct yaml_node *list;   /* its values: list->child[0 .. count-1] */
+    const struct yaml_node *labels; /* map: label to a map of parameters; NULL: plain values */
 };
 
 struct case_filter { /* which points: each named parameter has one of its values */
@@ -76,7 +81,7 @@ struct case_across {
     const char *name;
     const struct across *fit;
     struct case_number of; /* an observable's output */
-    const char *along;     /* a swept parameter */
+    const char *along;     /* a swept parameter, or one that every label of an axis sets */
     struct case_filter points;
     bool exact; /* `exact: true`: values of single runs carry no scatter */
     const struct yaml_node *node;
@@ -159,8 +164,10 @@ struct case_figure {
 struct case_tier { /* everything of one tier, overrides applied */
     bool present;
     size_t parameter_count, axis_count, check_count, point_count;
+    size_t room; /* no point has more parameters */
     const struct case_parameter *parameter;
     const struct case_axis *axis;
+    const struct readings *readings;               /* borrowed; NULL: none is used */
     struct case_samples samples, particle_samples; /* the latter may be empty */
     struct case_start start;
     struct case_seeds seeds;
@@ -172,7 +179,8 @@ struct case_tier { /* everything of one tier, overrides applied */
 struct case_file {
     struct arena arena;
     struct yaml_document *document;
-    struct case_file *runs; /* `runs_of:` the case whose runs it reads, or NULL */
+    struct readings *readings; /* of its model; NULL: it uses none */
+    struct case_file *runs;    /* `runs_of:` the case whose runs it reads, or NULL */
     const char *path, *name, *title, *source, *question, *model;
     const char *large_only; /* why there is no smoke tier, or NULL */
     size_t tag_count, observable_count, across_count, figure_count, dataset_count;
@@ -201,6 +209,12 @@ const char *case_kind_name(enum check_kind k);
 /* Lower-case letters, digits, '-' and '_', in parts joined by '/'. */
 bool case_name_is_safe(const char *name);
 
+/* Letters, digits, - and _; capitals too, as in width_x_R: it names no file. */
+bool case_parameter_name_is_good(const char *name);
+
+/* A value that can stand in a run file: one line of text, a number, or a list of such. */
+bool case_value_is_good(const struct yaml_node *n);
+
 /* Do two values as written mean the same: equal text or equal numbers. */
 bool case_value_equal(const char *a, const char *b);
 
@@ -212,8 +226,29 @@ const struct yaml_node *case_parameter_find(const struct case_parameter *p, size
                                             const char *name);
 
 /* The point-th combination of a tier, 0 .. point_count-1, the last axis running
- * fastest: all parameters, swept ones included.  out[0 .. parameter_count+axis_count-1]. */
-void case_point(const struct case_tier *t, size_t point, struct case_parameter *out);
+ * fastest: the tier's parameters, then one entry an axis, then what labels and the
+ * reading add; out[0 .. room-1].  What a label sets takes the place of a parameter of
+ * that name; what a reading sets is there only where nothing else sets it.  Returns how many. */
+size_t case_point(const struct case_tier *t, size_t point, struct case_parameter *out);
+
+/* A label's map of parameters, or NULL. */
+const struct yaml_node *case_label_find(const struct yaml_node *labels, const char *label);
+
+/* The axis of this name, or the labelled one whose every label sets such a parameter;
+ * axis_count: none. */
+size_t case_axis_of(const struct case_tier *t, const char *name);
+
+/* Do two points of a tier differ in this axis alone, or not at all? */
+bool case_points_agree(const struct case_tier *t, const struct case_parameter *p,
+                       const struct case_parameter *q, size_t but_axis);
+
+/* "reading=calibrated,height_l=64": the reading, if any, and the swept parameters but
+ * for one axis (axis_count: all); "single" where there are none.  NULL: no memory. */
+const char *case_point_text(struct arena *a, const struct case_tier *t,
+                            const struct case_parameter *p, size_t count, size_t but_axis);
+
+/* The reading that a point is of, or NULL. */
+const char *case_reading(const struct case_parameter *p, size_t count);
 
 /* The expectation of a point: tables looked up until a number or a prediction
  * is left; NULL when a table has no entry for it. */

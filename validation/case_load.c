@@ -304,8 +304,11 @@ static enum status load(const char *folder, const char *name, bool borrowed, str
     if (c->path == NULL)
         fault_set(&found, STATUS_NO_MEMORY, "case %s: out of memory", name);
     else if (yaml_load(c->path, YAML_CASE_MAX_BYTES, &c->document, &found) == STATUS_OK) {
-        struct case_reader r = {
-            .c = c, .root = yaml_root(c->document), .fault = &found, .borrowed = borrowed};
+        struct case_reader r = {.c = c,
+                                .folder = folder,
+                                .root = yaml_root(c->document),
+                                .fault = &found,
+                                .borrowed = borrowed};
         read_case(&r, folder, name);
     }
     if (found.status == STATUS_OK) {

@@ -4,20 +4,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* All points of the tier: parameters[point * size .. + size-1]. */
+/* All points of the tier: parameter[point * room .. + size[point]-1]. */
 struct grid {
-    size_t size, count;
+    size_t room, count, *size;
     struct case_parameter *parameter;
 };
 
 static const struct case_parameter *grid_at(const struct grid *g, size_t point) {
-    return &g->parameter[point * g->size];
+    return &g->parameter[point * g->room];
+}
+
+static const struct yaml_node *grid_find(const struct grid *g, size_t point, const char *name) {
+    return case_parameter_find(grid_at(g, point), g->size[point], name);
+}
+
+static bool grid_takes(const struct grid *g, const struct case_filter *f, size_t point) {
+    return case_filter_takes(f, grid_at(g, point), g->size[point]);
+}
+
+/* Does some point have a parameter of this name? */
+static bool grid_has(const struct grid *g, const char *name) {
+    for (size_t p = 0; p < g->count; p++) {
+        if (grid_find(g, p, name) != NULL)
+            return true;
+    }
+    return false;
 }
 
 static void name_parameters(struct case_reader *r, const struct grid *g, const struct yaml_node *n,
                             const char *name) {
     const char *names[256];
-    size_t count = g->size < 256 ? g->size : 256;
+    size_t count = g->size[0] < 256 ? g->size[0] : 256;
     for (size_t i = 0; i < count; i++)
         names[i] = g->parameter[i].name;
     case_read_unknown(r, n, "parameter of this case", name, names, count);
@@ -27,7 +44,7 @@ static void name_parameters(struct case_reader *r, const struct grid *g, const s
 static void use_filter(struct case_reader *r, const struct grid *g, const struct case_filter *f) {
     for (size_t i = 0; i < f->count; i++) {
         const struct yaml_node *n = &f->map->child[i];
-        if (case_parameter_find(g->parameter, g->size, n->key) == NULL) {
+        if (!grid_has(g, n->key)) {
             name_parameters(r, g, n, n->key);
             continue;
         }
@@ -35,8 +52,8 @@ static void use_filter(struct case_reader *r, const struct grid *g, const struct
         for (size_t k = 0; k < values; k++) {
             const struct yaml_node *v = n->kind == YAML_LIST ? &n->child[k] : n;
             for (size_t p = 0; v->kind == YAML_SCALAR && p < g->count; p++) {
-                const struct yaml_node *has = case_parameter_find(grid_at(g, p), g->size, n->key);
-                if (has->kind == YAML_SCALAR && case_value_equal(has->text, v->text))
+                const struct yaml_node *has = grid_find(g, p, n->key);
+                if (has != NULL && has->kind == YAML_SCALAR && case_value_equal(has->text, v->text))
                     case_read_mark(r, v, true);
             }
         }
@@ -46,9 +63,8 @@ static void use_filter(struct case_reader *r, const struct grid *g, const struct
 /* Follow the tables of an expectation for one point. */
 static void use_expect(struct case_reader *r, const struct grid *g, const struct case_check *k,
                        size_t point) {
-    const struct case_parameter *p = grid_at(g, point);
     for (const struct case_expect *e = &k->expect; e->kind == EXPECT_TABLE && e->by != NULL;) {
-        const struct yaml_node *value = case_parameter_find(p, g->size, e->by);
+        const struct yaml_node *value = grid_find(g, point, e->by);
         const struct case_expect *next = NULL;
         if (value == NULL || value->kind != YAML_SCALAR) {
             name_parameters(r, g, yaml_get(e->node, "by"), e->by);
@@ -69,23 +85,11 @@ static void use_expect(struct case_reader *r, const struct grid *g, const struct
     }
 }
 
-/* Do two points differ in no parameter but `along`? */
-static bool same_group(const struct grid *g, size_t a, size_t b, const char *along) {
-    for (size_t i = 0; i < g->size; i++) {
-        if (grid_at(g, a)[i].value != grid_at(g, b)[i].value &&
-            strcmp(g->parameter[i].name, along) != 0)
-            return false;
-    }
-    return true;
-}
-
 /* Each group of points has enough values, all of them numbers, to fit along. */
 static void use_across(struct case_reader *r, const struct grid *g, const struct case_tier *t,
                        const struct case_across *a) {
-    bool swept = false;
-    for (size_t i = 0; i < t->axis_count; i++)
-        swept |= strcmp(t->axis[i].name, a->along) == 0;
-    if (!swept) {
+    size_t axis = case_axis_of(t, a->along);
+    if (axis == t->axis_count) {
         case_read_fault(r, yaml_get(a->node, "along"),
                         "along: %s is not swept in every tier that "
                         "uses %s",
@@ -94,11 +98,11 @@ static void use_across(struct case_reader *r, const struct grid *g, const struct
     }
     for (size_t p = 0; p < g->count; p++) {
         size_t points = 0;
-        if (!case_filter_takes(&a->points, grid_at(g, p), g->size))
+        if (!grid_takes(g, &a->points, p))
             continue;
         for (size_t q = 0; q < g->count; q++)
-            points += same_group(g, p, q, a->along) &&
-                      case_filter_takes(&a->points, grid_at(g, q), g->size);
+            points += case_points_agree(t, grid_at(g, p), grid_at(g, q), axis) &&
+                      grid_takes(g, &a->points, q);
         if (points < a->fit->min_points) {
             case_read_fault(r, a->node, "across %s: %zu points in a fit, %s needs %zu", a->name,
                             points, a->fit->name, a->fit->min_points);
@@ -106,10 +110,31 @@ static void use_across(struct case_reader *r, const struct grid *g, const struct
         }
         double x;
         struct fault found = FAULT_NONE;
-        if (yaml_real(case_parameter_find(grid_at(g, p), g->size, a->along), &x, &found) !=
-            STATUS_OK)
+        if (yaml_real(grid_find(g, p, a->along), &x, &found) != STATUS_OK)
             case_read_merge(r, &found);
     }
+}
+
+/* Is this name what a fit goes along: the parameter, or the axis that sets it? */
+static bool is_along(const struct case_tier *t, const struct case_across *a, const char *name) {
+    size_t axis = case_axis_of(t, a->along);
+    return strcmp(name, a->along) == 0 ||
+           (axis < t->axis_count && strcmp(name, t->axis[axis].name) == 0);
+}
+
+/* A check of a fit chooses groups of points, not points within a group. */
+static void check_along(struct case_reader *r, const struct case_tier *t,
+                        const struct case_check *k, const struct case_across *a) {
+    for (size_t i = 0; i < k->points.count; i++) {
+        if (is_along(t, a, k->points.map->child[i].key))
+            case_read_fault(r, k->points.map,
+                            "check %s: %s is what the fit goes along; choose its "
+                            "values in `across`",
+                            k->name, k->points.map->child[i].key);
+    }
+    if (k->expect.kind == EXPECT_TABLE && k->expect.by != NULL && is_along(t, a, k->expect.by))
+        case_read_fault(r, k->expect.node, "check %s: one fit along %s has one expectation",
+                        k->name, k->expect.by);
 }
 
 static void use_check(struct case_reader *r, const struct grid *g, const struct case_tier *t,
@@ -120,19 +145,10 @@ static void use_check(struct case_reader *r, const struct grid *g, const struct 
     if (a != NULL && a->fit != NULL && a->along != NULL) {
         use_filter(r, g, &a->points);
         use_across(r, g, t, a);
-        if (k->points.map != NULL && yaml_get(k->points.map, a->along) != NULL)
-            case_read_fault(r, k->points.map,
-                            "check %s: %s is what the fit goes along; choose its "
-                            "values in `across`",
-                            k->name, a->along);
-        if (k->expect.kind == EXPECT_TABLE && k->expect.by != NULL &&
-            strcmp(k->expect.by, a->along) == 0)
-            case_read_fault(r, k->expect.node, "check %s: one fit along %s has one expectation",
-                            k->name, a->along);
+        check_along(r, t, k, a);
     }
     for (size_t p = 0; p < g->count; p++) {
-        if (!case_filter_takes(&k->points, grid_at(g, p), g->size) ||
-            (a != NULL && !case_filter_takes(&a->points, grid_at(g, p), g->size)))
+        if (!grid_takes(g, &k->points, p) || (a != NULL && !grid_takes(g, &a->points, p)))
             continue;
         taken++;
         use_expect(r, g, k, p);
@@ -152,7 +168,7 @@ static void use_figure(struct case_reader *r, const struct grid *g, const struct
         return;
     use_filter(r, g, &f->points);
     for (size_t p = 0; p < g->count; p++)
-        taken += case_filter_takes(&f->points, grid_at(g, p), g->size);
+        taken += grid_takes(g, &f->points, p);
     if (taken == 0)
         case_read_fault(r, f->node,
                         "figure %s: shows no point of tier %s; say `tiers: [...]` in the figure",
@@ -163,7 +179,7 @@ static void use_seeds(struct case_reader *r, const struct grid *g, const struct 
     for (size_t i = 0; i < t->seeds.rule_count; i++)
         use_filter(r, g, &t->seeds.rule[i].points);
     for (size_t p = 0; p < g->count; p++) {
-        if (t->seeds.rule_count > 0 && case_seed_count(&t->seeds, grid_at(g, p), g->size) == 0 &&
+        if (t->seeds.rule_count > 0 && case_seed_count(&t->seeds, grid_at(g, p), g->size[p]) == 0 &&
             r->fault->status == STATUS_OK)
             case_read_fault(r, t->node, "tier %s: no rule of `seeds` fits some point",
                             case_tier_name((enum tier)(t - r->c->tier)));
@@ -172,12 +188,13 @@ static void use_seeds(struct case_reader *r, const struct grid *g, const struct 
 
 void case_read_points(struct case_reader *r, enum tier tier) {
     struct case_tier *t = &r->c->tier[tier];
-    struct grid g = {.size = t->parameter_count + t->axis_count, .count = t->point_count};
-    g.parameter = case_read_take(r, g.size * g.count, sizeof *g.parameter);
-    if (g.parameter == NULL || g.count == 0 || t->parameter == NULL)
+    struct grid g = {.room = t->room, .count = t->point_count};
+    g.parameter = case_read_take(r, g.room * g.count, sizeof *g.parameter);
+    g.size = case_read_take(r, g.count, sizeof *g.size);
+    if (g.parameter == NULL || g.size == NULL || g.count == 0 || t->parameter == NULL)
         return;
     for (size_t p = 0; p < g.count; p++)
-        case_point(t, p, &g.parameter[p * g.size]);
+        g.size[p] = case_point(t, p, &g.parameter[p * g.room]);
     use_seeds(r, &g, t);
     for (size_t i = 0; i < t->check_count; i++)
         use_check(r, &g, t, &t->check[i]);

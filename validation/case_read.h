@@ -3,7 +3,8 @@
  * case_load.c    the file as a whole, what applies to every tier
  * case_parts.c   observables, across, tags
  * case_figures.c figures and their settings
- * case_tier.c    a tier: parameters, sweep, samples, seeds, start
+ * case_tier.c    a tier: samples, seeds, start
+ * case_parameters.c  parameters and sweep of a tier: values, labels, readings
  * case_checks.c  checks of a tier, overrides applied
  * case_expect.c  expectations, predictions and margins
  * case_points.c  what a tier's points must offer: filters, tables, sweeps of `across`
@@ -25,6 +26,7 @@ struct case_mark { /* a filter's value or a table's entry: used by some point? *
 struct case_reader {
     struct case_file *c;
     const struct yaml_node *root;
+    const char *folder;           /* of the case files */
     const struct yaml_node *runs; /* where the runs are described: root, or `runs_of`'s root */
     struct fault *fault;
     bool borrowed;                       /* read for the sake of its runs */
@@ -60,6 +62,7 @@ bool case_read_number(struct case_reader *r, const struct yaml_node *n, struct c
 const char *case_read_unit(const struct case_reader *r, const struct case_number *n);
 
 void case_read_tier(struct case_reader *r, enum tier t, const struct yaml_node *over);
+void case_read_parameters(struct case_reader *r, const struct yaml_node *over, struct case_tier *t);
 void case_read_checks(struct case_reader *r, enum tier t, const struct yaml_node *over);
 void case_read_expect(struct case_reader *r, const struct yaml_node *n, struct case_expect *out);
 void case_read_prediction(struct case_reader *r, const struct yaml_node *n,

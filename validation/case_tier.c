@@ -1,4 +1,4 @@
-/* case_tier.c -- one tier: parameters, sweep, samples, seeds and start, overrides applied. */
+/* case_tier.c -- one tier: samples, seeds and start, overrides applied. */
 #include "validation/case_read.h"
 
 #include <math.h>
@@ -32,108 +32,8 @@ static const struct yaml_node *get_map(const struct yaml_node *from, const char 
     return n != NULL && n->kind == YAML_MAP ? n : NULL;
 }
 
-/* Text that can stand in a run file and, if swept, in the name of a point. */
-static bool is_value(const struct yaml_node *n, bool swept) {
-    if (n->kind == YAML_MAP)
-        return false;
-    if (n->kind == YAML_LIST) {
-        for (size_t i = 0; i < n->count; i++) {
-            if (n->child[i].kind != YAML_SCALAR || !is_value(&n->child[i], swept))
-                return false;
-        }
-        return true;
-    }
-    for (const char *p = n->text; *p != '\0'; p++) {
-        if ((unsigned char)*p < ' ' || *p == 127 || (swept && strchr(",=;[] '\"\\", *p) != NULL))
-            return false;
-    }
-    return *n->text != '\0';
-}
-
-/* Letters, digits, - and _; capitals too, as in width_x_R: it names no file. */
-static bool is_parameter(const char *name) {
-    static const char letters[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
-    size_t length = strlen(name);
-    return length > 0 && length < 128 && name[0] != '-' && strspn(name, letters) == length;
-}
-
-static void check_parameter(struct case_reader *r, const struct yaml_node *n) {
-    if (!is_parameter(n->key))
-        case_read_fault(r, n, "%s: not a name of a parameter", n->key);
-    if (!is_value(n, false))
-        case_read_fault(r, n, "%s: must be a value or a list of values", n->key);
-}
-
-static void check_axis(struct case_reader *r, const struct yaml_node *n) {
-    if (!is_parameter(n->key))
-        case_read_fault(r, n, "%s: not a name of a parameter", n->key);
-    if (n->kind != YAML_LIST || n->count == 0) {
-        case_read_fault(r, n, "%s: a sweep needs a list of values", n->key);
-        return;
-    }
-    for (size_t i = 0; i < n->count; i++) {
-        const struct yaml_node *v = &n->child[i];
-        if (!is_value(v, true))
-            case_read_fault(r, v, "%s: not a value that can be swept", n->key);
-        for (size_t j = 0; j < i && v->kind == YAML_SCALAR; j++) {
-            if (n->child[j].kind == YAML_SCALAR && case_value_equal(v->text, n->child[j].text))
-                case_read_fault(r, v, "%s: %s stands twice in the sweep", n->key, v->text);
-        }
-    }
-}
-
-static void refuse_both(struct case_reader *r, const struct yaml_node *fixed,
-                        const struct yaml_node *swept) {
-    for (size_t i = 0; fixed != NULL && swept != NULL && i < fixed->count; i++) {
-        if (yaml_get(swept, fixed->child[i].key) != NULL)
-            case_read_fault(r, &fixed->child[i], "%s: is fixed and swept at once",
-                            fixed->child[i].key);
-    }
-}
-
 static bool has(const struct yaml_node *map, const char *key) {
     return map != NULL && yaml_get(map, key) != NULL;
-}
-
-/* The case's fixed parameters that the tier leaves alone, then the tier's own;
- * the same for the sweep.  A parameter that a tier fixes is swept no more. */
-static void read_parameters(struct case_reader *r, const struct yaml_node *over,
-                            struct case_tier *t) {
-    const struct yaml_node *fixed[] = {get_map(r->runs, "parameters"), get_map(over, "parameters")};
-    const struct yaml_node *swept[] = {get_map(r->runs, "sweep"), get_map(over, "sweep")};
-    size_t room = 0;
-    for (int level = 0; level < 2; level++) {
-        refuse_both(r, fixed[level], swept[level]);
-        room += fixed[level] == NULL ? 0 : fixed[level]->count;
-        room += swept[level] == NULL ? 0 : swept[level]->count;
-    }
-    struct case_parameter *parameter = case_read_take(r, room, sizeof *parameter);
-    struct case_axis *axis = case_read_take(r, room, sizeof *axis);
-    if (parameter == NULL || axis == NULL)
-        return;
-    t->parameter = parameter;
-    t->axis = axis;
-    for (int level = 0; level < 2; level++) {
-        for (size_t i = 0; fixed[level] != NULL && i < fixed[level]->count; i++) {
-            const struct yaml_node *n = &fixed[level]->child[i];
-            check_parameter(r, n);
-            if (level == 1 || (!has(fixed[1], n->key) && !has(swept[1], n->key)))
-                parameter[t->parameter_count++] = (struct case_parameter){n->key, n};
-        }
-        for (size_t i = 0; swept[level] != NULL && i < swept[level]->count; i++) {
-            const struct yaml_node *n = &swept[level]->child[i];
-            check_axis(r, n);
-            if (level == 0 && has(fixed[1], n->key))
-                continue;
-            if (level == 1 && has(swept[0], n->key))
-                continue; /* stands in the case's place, below */
-            const struct yaml_node *list =
-                level == 0 && has(swept[1], n->key) ? yaml_get(swept[1], n->key) : n;
-            if (list->kind == YAML_LIST && list->count > 0)
-                axis[t->axis_count++] = (struct case_axis){n->key, list};
-        }
-    }
 }
 
 static void count_points(struct case_reader *r, struct case_tier *t) {
@@ -316,7 +216,7 @@ void case_read_tier(struct case_reader *r, enum tier tier, const struct yaml_nod
     struct case_tier *t = &r->c->tier[tier];
     case_read_fields(r, own, "tier", tier_fields, sizeof tier_fields / sizeof *tier_fields);
     const struct yaml_node *over = find_runs(r, tier, own);
-    read_parameters(r, over, t);
+    case_read_parameters(r, over, t);
     count_points(r, t);
     read_samples(r, get(r, over, "samples"), &t->samples);
     read_samples(r, get(r, over, "particle_samples"), &t->particle_samples);

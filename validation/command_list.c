@@ -10,10 +10,9 @@
 static size_t count_runs(const struct case_tier *t) {
     size_t runs = 0;
     struct case_parameter p[512];
-    size_t size = t->parameter_count + t->axis_count;
-    for (size_t i = 0; size <= 512 && i < t->point_count; i++) {
-        case_point(t, i, p);
-        runs += case_seed_count(&t->seeds, p, size);
+    for (size_t i = 0; t->room <= 512 && i < t->point_count; i++) {
+        size_t count = case_point(t, i, p);
+        runs += case_seed_count(&t->seeds, p, count);
     }
     return runs;
 }

@@ -56,10 +56,13 @@ static bool differs(const struct measured_case *data, const char *name) {
 const char *figure_point_text(const struct measured_case *data, const struct measured_point *p,
                               const char *along, struct arena *a) {
     const struct case_tier *t = data->plan->tier;
-    const char *text = "";
+    size_t but = along == NULL ? t->axis_count : case_axis_of(t, along);
+    const char *reading = case_reading(p->point->parameter, p->point->parameter_count);
+    bool told = reading == NULL || (along != NULL && strcmp(along, "reading") == 0);
+    const char *text = told ? "" : figure_value_text("reading", reading, a);
     for (size_t i = 0; i < t->axis_count && text != NULL; i++) {
         const char *name = t->axis[i].name;
-        if ((along != NULL && strcmp(name, along) == 0) || !differs(data, name))
+        if (i == but || strcmp(name, "reading") == 0 || !differs(data, name))
             continue;
         const char *value = case_value_text(
             a, case_parameter_find(p->point->parameter, p->point->parameter_count, name));

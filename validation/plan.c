@@ -29,27 +29,15 @@ static enum status no_memory(struct planner *pl) {
     return fault_set(pl->fault, STATUS_NO_MEMORY, "plan: out of memory");
 }
 
-static const char *name_point(struct arena *a, const struct case_tier *t,
-                              const struct case_parameter *parameter) {
-    const char *name = t->axis_count == 0 ? "single" : "";
-    for (size_t i = 0; i < t->axis_count && name != NULL; i++) {
-        const struct case_parameter *p = &parameter[t->parameter_count + i];
-        const char *value = case_value_text(a, p->value);
-        name = value == NULL ? NULL
-                             : arena_text(a, "%s%s%s=%s", name, i == 0 ? "" : ",", p->name, value);
-    }
-    return name;
-}
-
 static enum status fill_place(struct planner *pl, const struct case_file *file, size_t point,
                               struct place *out) {
     const struct case_tier *t = &file->tier[pl->plan->tier];
-    size_t count = t->parameter_count + t->axis_count;
-    struct case_parameter *p = arena_take(&pl->plan->arena, count, sizeof *p);
+    struct case_parameter *p = arena_take(&pl->plan->arena, t->room, sizeof *p);
     if (p == NULL)
         return no_memory(pl);
-    case_point(t, point, p);
-    *out = (struct place){case_runs(file), t, name_point(&pl->plan->arena, t, p), p, count};
+    size_t count = case_point(t, point, p);
+    const char *name = case_point_text(&pl->plan->arena, t, p, count, t->axis_count);
+    *out = (struct place){case_runs(file), t, name, p, count};
     return out->point == NULL ? no_memory(pl) : STATUS_OK;
 }
 

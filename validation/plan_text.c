@@ -42,14 +42,18 @@ static void write_times(FILE *out, const char *key, const struct case_samples *s
 
 static void write_parameters(FILE *out, const struct case_parameter *p, size_t count,
                              bool origins) {
-    if (count > 0)
-        fputs("parameters:\n", out);
+    bool any = false;
     for (size_t i = 0; i < count; i++) {
-        fprintf(out, "  %s: ", p[i].name);
+        if (p[i].label)
+            continue; /* what it stands for is there in its place */
+        fprintf(out, "%s  %s: ", any ? "" : "parameters:\n", p[i].name);
         write_value(out, p[i].value);
         if (origins)
             fprintf(out, "    # %s:%zu", p[i].value->file, p[i].value->line);
+        if (origins && p[i].reading != NULL)
+            fprintf(out, ", reading %s", p[i].reading);
         fputc('\n', out);
+        any = true;
     }
 }
 
@@ -78,8 +82,9 @@ const char *plan_text(struct arena *a, const struct plan_text_input *in, bool or
     if (out != NULL) {
         if (origins)
             fputs("# One run, written by bedcheck; it is written anew before each use.\n", out);
-        fprintf(out, "format: bedcheck-run 1\ncase: %s\npoint: %s\nmodel: %s\n", in->file->name,
-                in->point, in->file->model);
+        const char *quote = strchr(in->point, ' ') != NULL ? "\"" : ""; /* has none itself */
+        fprintf(out, "format: bedcheck-run 1\ncase: %s\npoint: %s%s%s\nmodel: %s\n", in->file->name,
+                quote, in->point, quote, in->file->model);
         write_wanted(out, in->file, in->tier);
         if (in->start_file != NULL)
             fprintf(out, "start_file: %s\n", in->start_file);

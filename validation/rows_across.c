@@ -11,13 +11,10 @@ static bool takes(const struct measured_case *m, const struct case_across *a, si
 
 bool rows_group_has(const struct measured_case *m, const struct case_across *a, size_t p,
                     size_t q) {
-    const struct plan_point *x = m->point[p].point, *y = m->point[q].point;
-    for (size_t i = 0; i < x->parameter_count; i++) {
-        if (x->parameter[i].value != y->parameter[i].value &&
-            strcmp(x->parameter[i].name, a->along) != 0)
-            return false;
-    }
-    return takes(m, a, p) && takes(m, a, q);
+    const struct case_tier *t = m->plan->tier;
+    return takes(m, a, p) && takes(m, a, q) &&
+           case_points_agree(t, m->point[p].point->parameter, m->point[q].point->parameter,
+                             case_axis_of(t, a->along));
 }
 
 bool rows_group_first(const struct measured_case *m, const struct case_across *a, size_t p) {
@@ -31,19 +28,8 @@ bool rows_group_first(const struct measured_case *m, const struct case_across *a
 static const char *name_group(const struct measured_case *m, const struct case_across *a,
                               size_t first, struct arena *arena) {
     const struct case_tier *t = m->plan->tier;
-    const char *name = NULL;
-    for (size_t i = 0; i < t->axis_count; i++) {
-        const struct case_parameter *p = &m->point[first].point->parameter[t->parameter_count + i];
-        if (strcmp(p->name, a->along) == 0)
-            continue;
-        const char *value = case_value_text(arena, p->value);
-        name = value == NULL ? NULL
-                             : arena_text(arena, "%s%s%s=%s", name == NULL ? "" : name,
-                                          name == NULL ? "" : ",", p->name, value);
-        if (name == NULL)
-            return NULL;
-    }
-    return name == NULL ? "single" : name;
+    const struct plan_point *p = m->point[first].point;
+    return case_point_text(arena, t, p->parameter, p->parameter_count, case_axis_of(t, a->along));
 }
 
 static int by_x(const void *a, const void *b) {

@@ -46,8 +46,8 @@ static enum status scan(struct arena *a, const char *folder, const char *inside,
                                       (int)(yaml ? length - 5 : length), e->d_name);
         const char *file = name == NULL ? NULL : arena_text(a, "%s/%s", path, e->d_name);
         struct stat about;
-        if (e->d_name[0] == '.')
-            continue;
+        if (e->d_name[0] == '.' || (depth == 0 && strcmp(e->d_name, "readings") == 0))
+            continue; /* readings are no cases: readings.h */
         if (file == NULL)
             status = no_memory(fault);
         else if (stat(file, &about) == 0 && S_ISDIR(about.st_mode) && depth < MAX_DEPTH)
@@ -209,6 +209,8 @@ static enum status select_cases(struct selection *s, const struct selection_requ
     enum status status = scan(&s->arena, r->folder, "", 0, &list, fault);
     if (status != STATUS_OK)
         return status;
+    if (readings_check_folder(r->folder, fault) != STATUS_OK)
+        return fault->status;
     if (list.count > 0)
         qsort(list.name, list.count, sizeof *list.name, by_text);
     choose(r, &list, fault);
