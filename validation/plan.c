@@ -49,20 +49,32 @@ static const struct case_file *find_case(const struct planner *pl, const char *n
     return NULL;
 }
 
-/* The value that a swept parameter of the case started from must have. */
-static const char *wanted_value(const struct place *from, const char *name) {
-    const struct yaml_node *said =
-        from->tier->start.point == NULL ? NULL : yaml_get(from->tier->start.point, name);
-    const struct yaml_node *own =
-        said != NULL ? said : case_parameter_find(from->parameter, from->count, name);
+/* What the case says of a parameter of the run that it starts from; NULL: nothing. */
+static const struct yaml_node *said_of(const struct place *from, const char *name) {
+    return yaml_get(from->tier->start.point, name);
+}
+
+static bool is_same(const struct yaml_node *said) {
+    return !said->quoted && strcmp(said->text, "same") == 0;
+}
+
+/* The one value that a run has of a parameter, or NULL. */
+static const char *own_value(const struct place *at, const char *name) {
+    const struct yaml_node *own = case_parameter_find(at->parameter, at->count, name);
     return own != NULL && own->kind == YAML_SCALAR ? own->text : NULL;
 }
 
+/* Must agree: what the case says; where it says nothing, what is swept there, and
+ * readings, which are no business of a start to change unsaid. */
 static bool is_wanted(const struct place *from, const struct place *candidate) {
-    const struct case_tier *t = candidate->tier;
-    for (size_t i = 0; i < t->axis_count; i++) {
-        const struct case_parameter *p = &candidate->parameter[t->parameter_count + i];
-        const char *wanted = wanted_value(from, p->name);
+    size_t fixed = candidate->tier->parameter_count;
+    for (size_t i = 0; i < candidate->count; i++) {
+        const struct case_parameter *p = &candidate->parameter[i];
+        const struct yaml_node *said = said_of(from, p->name);
+        bool swept = i >= fixed && i < fixed + candidate->tier->axis_count;
+        const char *wanted = said != NULL && !is_same(said) ? said->text : own_value(from, p->name);
+        if (said == NULL && !swept && (!p->label || wanted == NULL))
+            continue;
         if (wanted == NULL || p->value->kind != YAML_SCALAR ||
             !case_value_equal(wanted, p->value->text))
             return false;
@@ -70,16 +82,18 @@ static bool is_wanted(const struct place *from, const struct place *candidate) {
     return true;
 }
 
-static enum status check_start_names(struct planner *pl, const struct case_start *start,
-                                     const struct case_tier *t) {
+/* Every name stands for a parameter there and, where it is to be the same, here. */
+static enum status check_start_names(struct planner *pl, const struct place *from,
+                                     const struct place *candidate) {
+    const struct case_start *start = &from->tier->start;
     for (size_t i = 0; start->point != NULL && i < start->point->count; i++) {
         const struct yaml_node *n = &start->point->child[i];
-        bool swept = false;
-        for (size_t k = 0; k < t->axis_count; k++)
-            swept |= strcmp(t->axis[k].name, n->key) == 0;
-        if (!swept)
-            return yaml_fault(n, pl->fault, "start: %s does not sweep %s", start->case_name,
+        if (case_parameter_find(candidate->parameter, candidate->count, n->key) == NULL)
+            return yaml_fault(n, pl->fault, "start: %s has no parameter %s", start->case_name,
                               n->key);
+        if (is_same(n) && own_value(from, n->key) == NULL)
+            return yaml_fault(n, pl->fault, "start: %s: same, but %s has no one value of it",
+                              n->key, from->point);
     }
     return STATUS_OK;
 }
@@ -95,9 +109,11 @@ static enum status find_start(struct planner *pl, const struct place *from, stru
     if (!t->present)
         return yaml_fault(start->node, pl->fault, "start: case %s has no tier %s", start->case_name,
                           tier);
-    enum status status = check_start_names(pl, start, t);
+    enum status status = STATUS_OK;
     for (size_t i = 0; status == STATUS_OK && i < t->point_count; i++) {
         status = fill_place(pl, file, i, out);
+        if (status == STATUS_OK)
+            status = check_start_names(pl, from, out);
         if (status == STATUS_OK && is_wanted(from, out))
             return STATUS_OK;
     }

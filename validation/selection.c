@@ -209,7 +209,7 @@ static enum status select_cases(struct selection *s, const struct selection_requ
     enum status status = scan(&s->arena, r->folder, "", 0, &list, fault);
     if (status != STATUS_OK)
         return status;
-    if (readings_check_folder(r->folder, fault) != STATUS_OK)
+    if (r->any_tier && readings_check_folder(r->folder, fault) != STATUS_OK)
         return fault->status;
     if (list.count > 0)
         qsort(list.name, list.count, sizeof *list.name, by_text);

@@ -15,7 +15,7 @@ struct selection_request {
     const char *const *pattern; /* none: every case */
     const char *const *tag;     /* a case has one of them; none: no matter */
     const char *const *skip;    /* "CASE=reason" */
-    bool any_tier;              /* `list`: leave none out for its tier */
+    bool any_tier;              /* `list`: leave none out for its tier, check all readings */
     enum tier tier;
 };
 

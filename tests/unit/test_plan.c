@@ -156,8 +156,8 @@ START_TEST(a_start_that_does_not_fit_is_refused) {
     } bad[] = {{"case: fake/steady", "case: fake/nobody", "no case fake/nobody"},
                {"start: random}", "start: cold}", "no point of fake/steady"},
                {", point: {start: random}", "", "no point of fake/steady"},
-               {"{start: random}", "{darcy: published}", "does not sweep darcy"},
-               {"case: fake/steady", "case: fake/heir", "does not sweep start"},
+               {"{start: random}", "{darcy: published}", "fake/steady has no parameter darcy"},
+               {"case: fake/steady", "case: fake/heir", "fake/heir has no parameter start"},
                {"{case: fake/steady, point: {start: random}}", "{case: fake/heir}",
                 "start from each other"}};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -175,10 +175,61 @@ START_TEST(a_start_that_does_not_fit_is_refused) {
 }
 END_TEST
 
+static const char child[] =
+    "parameters: {grains: 137}\nsamples: [3]\nseeds: {first: 1101}\n"
+    "sweep: {step: {down: {height_l: 58}, up: {height_l: 64.0}}, start: [lattice]}\n"
+    "start: {case: fake/steady, point: {height_l: same, start: random, grains: same}}\n"
+    "tiers: {smoke: {}}\n";
+
+START_TEST(a_start_has_the_same_value_as_its_run) {
+    struct fault fault;
+    struct case_file *all[] = {load("fake/child", child), load("fake/steady", steady)};
+    struct plan *p = plan_of(all, 2, 1, 0, &fault);
+    unit_ok(fault.status, &fault);
+    const struct plan_point *point = p->cases[0].point;
+    ck_assert_str_eq(point[0].run[0]->start->point, "height_l=58,start=random");
+    ck_assert_str_eq(point[1].run[0]->start->point, "height_l=64,start=random");
+    char wanted[256];
+    snprintf(wanted, sizeof wanted, "start_file: ../h5/%s.h5\n", point[1].run[0]->start->name);
+    ck_assert_ptr_nonnull(strstr(point[1].run[0]->text, wanted));
+    plan_free(p);
+    case_free(all[0]);
+    case_free(all[1]);
+}
+END_TEST
+
+START_TEST(a_start_that_cannot_be_the_same_is_refused) {
+    static const struct {
+        const char *from, *to, *says;
+    } bad[] = {{"grains: 137", "grains: 138", "no point of fake/steady"},
+               {"parameters: {grains: 137}\n", "", "grains: same, but step=down,start=lattice has"},
+               {"grains: 137", "grains: [137]", "grains: same, but"},
+               {"64.0", "65", "is meant by step=up"},
+               {"height_l: same", "height_l: 'same'", "no point of fake/steady"},
+               {"grains: same", "grain: same", "fake/steady has no parameter grain"}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct fault fault;
+        char text[512];
+        const char *at = strstr(child, bad[i].from);
+        snprintf(text, sizeof text, "%.*s%s%s", (int)(at - child), child, bad[i].to,
+                 at + strlen(bad[i].from));
+        struct case_file *all[] = {load("fake/child", text), load("fake/steady", steady)};
+        ck_assert_ptr_null(plan_of(all, 2, 1, 0, &fault));
+        unit_says(&fault, bad[i].says);
+        case_free(all[0]);
+        case_free(all[1]);
+    }
+}
+END_TEST
+
 int main(void) {
-    const TTest *const tests[] = {
-        points_and_seeds_are_expanded_in_order, a_run_file_is_read_back_with_every_value,
-        only_the_meaning_names_a_run,           a_start_is_planned_first_and_shared,
-        a_start_that_does_not_fit_is_refused,   NULL};
+    const TTest *const tests[] = {points_and_seeds_are_expanded_in_order,
+                                  a_run_file_is_read_back_with_every_value,
+                                  only_the_meaning_names_a_run,
+                                  a_start_is_planned_first_and_shared,
+                                  a_start_that_does_not_fit_is_refused,
+                                  a_start_has_the_same_value_as_its_run,
+                                  a_start_that_cannot_be_the_same_is_refused,
+                                  NULL};
     return unit_run("plan", tests);
 }
