@@ -2,12 +2,7 @@
  *
  * All components of one sample, divided by their root mean square, are held against
  * the normal distribution: excess kurtosis <c^4>/<c^2>^2 - 3, and the statistic of
- * Kolmogorov and Smirnov D = max |F_n - F| with its probability
- *
- *     p = 2 sum over j of (-1)^(j-1) exp(-2 j^2 l^2),  l = D (sqrt n + .12 + .11/sqrt n)
- *
- * (Stephens).  The width comes from the same sample, which makes p larger: a p
- * below alpha refuses Maxwell at less than alpha.
+ * Kolmogorov and Smirnov with its probability (normality.h).
  *
  * Conservation: largest |E/E0 - 1| and |P - P0|/(N m v), v = sqrt(2 E0/(3 N m)), of all
  * samples; of the components of P only those along periodic axes.
@@ -17,11 +12,10 @@
  * Checked by: suspension/verification-maxwell, -conservation, -kicks;
  *             tests/unit/test_observe_spheres_velocity.c.
  */
+#include "validation/normality.h"
 #include "validation/observe_spheres.h"
 #include "validation/recipes.h"
 
-#include <gsl/gsl_cdf.h>
-#include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -53,27 +47,6 @@ static void take(const struct series *u, size_t frame, struct sample *s) {
     }
 }
 
-static double probability(double statistic, size_t n) {
-    double root = sqrt((double)n), l = statistic * (root + 0.12 + 0.11 / root), sum = 0;
-    if (l < 0.2)
-        return 1;
-    for (int j = 1; j <= 100; j++)
-        sum += (j % 2 ? 2 : -2) * exp(-2 * j * j * l * l);
-    return fmin(fmax(sum, 0), 1);
-}
-
-/* Sorts the components. */
-static double kolmogorov(struct sample *s) {
-    double worst = 0, width = sqrt(s->variance);
-    gsl_sort(s->c, 1, s->n);
-    for (size_t i = 0; i < s->n; i++) {
-        double f = gsl_cdf_ugaussian_P(s->c[i] / width);
-        double low = (double)i / (double)s->n, high = (double)(i + 1) / (double)s->n;
-        worst = fmax(worst, fmax(fabs(f - low), fabs(high - f)));
-    }
-    return worst;
-}
-
 /* Moments are averaged over the frames of the window; the test is of the last frame. */
 static enum status measure(struct run_view *v, const double *settings, struct measurement *out,
                            struct fault *fault) {
@@ -99,8 +72,8 @@ static enum status measure(struct run_view *v, const double *settings, struct me
             uneven = fmax(uneven, fabs(s.axis_variance[a] / s.variance - 1));
     }
     if (s.variance > 0) {
-        out->value[STATISTIC] = kolmogorov(&s);
-        out->value[PROBABILITY] = probability(out->value[STATISTIC], s.n);
+        out->value[STATISTIC] = normality_distance(s.c, s.n, sqrt(s.variance));
+        out->value[PROBABILITY] = normality_probability(out->value[STATISTIC], s.n);
         out->value[ANISOTROPY] = uneven;
     } else {
         for (size_t i = KURTOSIS; i <= PROBABILITY; i++)

@@ -12,7 +12,7 @@
 
 #include <stddef.h>
 
-enum { PREDICTION_MAX_INPUTS = 16 };
+enum { PREDICTION_MAX_INPUTS = 24 };
 
 struct prediction {
     const char *name, *title, *unit;

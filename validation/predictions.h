@@ -10,7 +10,8 @@ enum {
     PREDICT_DISCS_COUNT = 3,
     PREDICT_BED_COUNT = 7,
     PREDICT_SPHERES_COUNT = 7,
-    PREDICT_SUSPENSION_COUNT = 8
+    PREDICT_SUSPENSION_COUNT = 8,
+    PREDICT_INTERFACE_COUNT = 8
 };
 
 extern const struct prediction PREDICT_SETTLING[PREDICT_SETTLING_COUNT]; /* predict_settling.c */
@@ -20,5 +21,6 @@ extern const struct prediction PREDICT_BED[PREDICT_BED_COUNT];           /* pred
 extern const struct prediction PREDICT_SPHERES[PREDICT_SPHERES_COUNT];   /* predict_spheres.c */
 extern const struct prediction
     PREDICT_SUSPENSION[PREDICT_SUSPENSION_COUNT]; /* predict_suspension.c */
+extern const struct prediction PREDICT_INTERFACE[PREDICT_INTERFACE_COUNT]; /* predict_interface.c */
 
 #endif

@@ -43,6 +43,11 @@ static const struct recipe *const RECIPES[] = {
     &recipe_sphere_order,
     &recipe_sphere_mirror,
     &recipe_sphere_fingerprint,
+    &recipe_bed_interface,
+    &recipe_bed_formation,
+    &recipe_bed_temperature,
+    &recipe_bed_velocities,
+    &recipe_bed_diffusion,
 };
 
 const struct recipe *recipe_find(const char *name) {

@@ -1,0 +1,427 @@
+/* observe_interface.c -- a bed at rest: its interface, its foot, and how long they take to form.
+ *
+ * bed-interface: the profile of packing fraction, averaged over a window of time, fitted with an
+ * error function (interface_fit.h).  The window is cut into blocks of equal time, each fitted by
+ * itself: the standard error is the blocks' scatter over the root of their number.  Height and
+ * width of the mean profile, not means over blocks, are given.  The foot: the largest value within
+ * 4 R of the floor, and the middle of its slab.  Drift: the centre of mass in the later half of the
+ * window less that in the earlier.  Bulk: the middle fifth of N V/(Wx Wy phibar).
+ *
+ * bed-formation: how far the profile is from the stationary one,
+ *
+ *     D^2(t) = integral of (phi(z,t) - phi_s(z))^2 dz,   phi_s the mean from settled_s on,
+ *
+ * averaged over blocks of block_s.  D^2 of a stationary profile is not 0 but the noise of a block;
+ * the profile is stationary from the first block on that is not above the settled blocks' mean by
+ * more than three of their standard deviations.  Beside it: when sigma of a block's mean
+ * profile first reaches .9 of the settled one.
+ *
+ * Source:     Fiege & Zippelius, Section IV A.
+ * Leaves out: beds whose phibar changes.
+ * Checked by: suspension/interface-width, -formation; tests/unit/test_observe_interface.c.
+ */
+#include "validation/bed_rest.h"
+#include "validation/recipes.h"
+#include "validation/sphere_profile.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { FROM_S, TO_S, BLOCKS, ABOVE_R, PLATEAU_FREE };
+enum {
+    SIGMA,
+    SIGMA_ERROR,
+    HEIGHT,
+    HEIGHT_ERROR,
+    PLATEAU,
+    FIT_RMS,
+    SHOULDER_RMS,
+    BULK,
+    BOTTOM_PEAK,
+    PEAK_HEIGHT,
+    DRIFT,
+    TEMPERATURE,
+    TEMPERATURE_ZZ,
+    COLLISION_RATE,
+    COLLISIONS,
+    WALLS,
+    ABOVE,
+    FREE_PLATEAU
+};
+enum { BLOCK_S = 0, SETTLED_S, FORMATION_ABOVE_R };
+enum { TIME, FORMED_COLLISIONS, SIGMA_TIME, SETTLED_SIGMA, FLOOR, BLOCK_COUNT };
+enum { BLOCKS_MAX = 400 };
+
+/* A run of a bed, and its parameters as hydrostatics takes them. */
+struct bed {
+    struct observe_spheres spheres;
+    double input[BED_INPUTS];
+    struct sphere_profile fraction;
+};
+
+static enum status open_bed(struct run_view *v, struct bed *b, struct fault *fault) {
+    static const char *const name[] = {BED_REST_NAMES};
+    double gamma;
+    enum status status = observe_spheres(v, &b->spheres, fault);
+    if (!status)
+        status = observe_spheres_drag(v, &gamma, fault); /* refuses a phibar that changes */
+    for (size_t i = 0; i < BED_PARAMETERS && !status; i++)
+        status = run_view_parameter(v, name[i], &b->input[i], fault);
+    const bool *periodic = b->spheres.periodic;
+    if (!status && (periodic[2] || periodic[0] != periodic[1]))
+        status = fault_set(fault, STATUS_BAD_INPUT,
+                           "%s: a bed needs a floor, and sides across x and y of one kind",
+                           run_view_path(v));
+    if (status)
+        return status;
+    b->input[BED_WIDTH_X_R] = b->spheres.box_m[0] / b->spheres.radius_m;
+    b->input[BED_WIDTH_Y_R] = b->spheres.box_m[1] / b->spheres.radius_m;
+    b->input[BED_WALLS] = periodic[0] ? 0 : 1;
+    return sphere_profile_open(v, "packing_fraction", &b->spheres, &b->fraction, fault);
+}
+
+/* -- bed-interface ------------------------------------------------------------------ */
+
+struct window {
+    size_t first, last;
+    struct interface_window fit;
+};
+
+/* Scatter of the blocks' fits over the root of their number. */
+static enum status measure_blocks(const struct bed *b, const struct window *w, size_t blocks,
+                                  double *profile, struct measurement *out, struct fault *fault) {
+    double sum[2] = {0}, squares[2] = {0}, n = (double)blocks;
+    size_t frames = w->last - w->first + 1;
+    for (size_t k = 0; k < blocks; k++) {
+        struct interface_fit fit;
+        sphere_profile_mean(&b->fraction, w->first + k * frames / blocks,
+                            w->first + (k + 1) * frames / blocks - 1, profile);
+        enum status status =
+            interface_fit(b->fraction.height_R, profile, b->fraction.bins, &w->fit, &fit, fault);
+        if (status)
+            return status;
+        double value[2] = {fit.sigma_R, fit.height_R};
+        for (size_t i = 0; i < 2; i++) {
+            sum[i] += value[i] / n;
+            squares[i] += value[i] * value[i] / n;
+        }
+    }
+    for (size_t i = 0; i < 2; i++)
+        out->value[i ? HEIGHT_ERROR : SIGMA_ERROR] =
+            sqrt(fmax(squares[i] - sum[i] * sum[i], 0) / (n - 1));
+    return STATUS_OK;
+}
+
+static void measure_foot(const struct bed *b, const double *profile, struct measurement *out) {
+    for (size_t k = 0; k < b->fraction.bins && b->fraction.height_R[k] < 4; k++)
+        if (profile[k] > out->value[BOTTOM_PEAK]) {
+            out->value[BOTTOM_PEAK] = profile[k];
+            out->value[PEAK_HEIGHT] = b->fraction.height_R[k];
+        }
+}
+
+static enum status add_curves(const struct bed *b, const double *profile,
+                              const struct interface_fit *fit, struct measurement *out,
+                              struct fault *fault) {
+    static const char *const label[] = {"hydrostatic, one temperature",
+                                        "hydrostatic, local temperature"};
+    static const char *const name[] = {"hydrostatic", "hydrostatic-local"};
+    size_t n = b->fraction.bins;
+    const double *z = b->fraction.height_R;
+    double *y = malloc(n * sizeof *y);
+    if (!y)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a curve of %zu heights", n);
+    for (size_t k = 0; k < n; k++)
+        y[k] = interface_fit_at(fit, z[k]);
+    enum status status = measurement_add_curve(out, "profile", "measured", z, profile, n, fault);
+    if (!status)
+        status = measurement_add_curve(out, "fit", "Eq. 14", z, y, n, fault);
+    free(y);
+    for (size_t i = 0; i < 2 && !status; i++) {
+        struct hydrostatic_profile solved;
+        struct fault none = FAULT_NONE; /* a bed may have no stationary state: no curve */
+        if (bed_rest_solve(b->input, i == 1, &solved, &none))
+            continue;
+        status = measurement_add_curve(out, name[i], label[i], solved.height_R, solved.fraction,
+                                       solved.count, fault);
+        hydrostatic_free(&solved);
+    }
+    return status;
+}
+
+static enum status measure_motion(struct run_view *v, const struct bed *b, const struct window *w,
+                                  struct measurement *out, struct fault *fault) {
+    const struct series *centre, *collisions;
+    enum status status = observe_values(v, "observables/centre_of_mass", 3, &centre, fault);
+    if (!status)
+        status = observe_values(v, "observables/collisions", 1, &collisions, fault);
+    if (!status)
+        status = observe_spheres_together(v, b->fraction.series, centre, fault);
+    if (!status)
+        status = observe_spheres_together(v, centre, collisions, fault);
+    if (status)
+        return status;
+    size_t frames = w->last - w->first + 1, half = frames / 2;
+    double early = 0, late = 0, count = (double)b->spheres.count;
+    for (size_t f = 0; f < half; f++) {
+        early += centre->value[3 * (w->first + f) + 2] / (double)half;
+        late += centre->value[3 * (w->last - f) + 2] / (double)half;
+    }
+    out->value[DRIFT] = (late - early) / b->spheres.radius_m;
+    double duration = centre->time[w->last] - centre->time[w->first];
+    double met = collisions->value[w->last] - collisions->value[w->first];
+    out->value[COLLISION_RATE] = 2 * met / (count * duration);
+    out->value[COLLISIONS] = 2 * collisions->value[w->last] / count;
+    return STATUS_OK;
+}
+
+static enum status measure_temperature(struct run_view *v, const struct bed *b,
+                                       const struct window *w, struct measurement *out,
+                                       struct fault *fault) {
+    static const char *const name[] = {"temperature_xy", "temperature_zz"};
+    double low, high, level[2] = {0};
+    bed_rest_bulk(b->input, &low, &high);
+    for (size_t i = 0; i < 2; i++) {
+        struct sphere_profile t;
+        enum status status = sphere_profile_open(v, name[i], &b->spheres, &t, fault);
+        if (status)
+            return status;
+        level[i] = sphere_profile_level(&t, &b->fraction, w->first, w->last, low, high);
+        sphere_profile_close(&t);
+    }
+    out->value[TEMPERATURE] = (2 * level[0] + level[1]) / 3;
+    out->value[TEMPERATURE_ZZ] = level[1];
+    out->value[BULK] = sphere_profile_level(&b->fraction, NULL, w->first, w->last, low, high);
+    return STATUS_OK;
+}
+
+static enum status measure_profile(const struct bed *b, const struct window *w, size_t blocks,
+                                   struct measurement *out, struct fault *fault) {
+    double *profile = malloc(b->fraction.bins * sizeof *profile);
+    struct interface_fit fit;
+    if (!profile)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a profile");
+    enum status status = measure_blocks(b, w, blocks, profile, out, fault);
+    sphere_profile_mean(&b->fraction, w->first, w->last, profile);
+    if (!status)
+        status =
+            interface_fit(b->fraction.height_R, profile, b->fraction.bins, &w->fit, &fit, fault);
+    if (!status) {
+        out->value[SIGMA] = fit.sigma_R;
+        out->value[HEIGHT] = fit.height_R;
+        out->value[PLATEAU] = fit.plateau;
+        out->value[FIT_RMS] = fit.rms;
+        out->value[SHOULDER_RMS] = fit.shoulder_rms;
+        measure_foot(b, profile, out);
+        status = add_curves(b, profile, &fit, out, fault);
+    }
+    free(profile);
+    return status;
+}
+
+static enum status measure_interface(struct run_view *v, const double *settings,
+                                     struct measurement *out, struct fault *fault) {
+    struct bed b = {0};
+    struct window w = {
+        .fit = {.above_R = settings[ABOVE_R], .plateau_free = settings[PLATEAU_FREE] > 0.5}};
+    size_t blocks = (size_t)settings[BLOCKS];
+    enum status status = open_bed(v, &b, fault);
+    if (!status)
+        status = observe_spheres_window(v, b.fraction.series, settings[FROM_S], settings[TO_S],
+                                        &w.first, &w.last, fault);
+    if (!status && w.last - w.first + 1 < 2 * blocks)
+        status = fault_set(fault, STATUS_BAD_INPUT, "%s: %zu samples for %zu blocks",
+                           run_view_path(v), w.last - w.first + 1, blocks);
+    b.input[BED_ABOVE_R] = out->value[ABOVE] = settings[ABOVE_R];
+    b.input[BED_PLATEAU_FREE] = out->value[FREE_PLATEAU] = settings[PLATEAU_FREE];
+    out->value[WALLS] = b.input[BED_WALLS];
+    w.fit.phibar = b.input[BED_PHIBAR];
+    if (!status)
+        status = measure_motion(v, &b, &w, out, fault);
+    if (!status)
+        status = measure_temperature(v, &b, &w, out, fault);
+    if (!status)
+        status = measure_profile(&b, &w, blocks, out, fault);
+    sphere_profile_close(&b.fraction);
+    return status;
+}
+
+/* -- bed-formation ------------------------------------------------------------------- */
+
+struct formation {
+    size_t blocks, frames; /* frames a block */
+    size_t settled;        /* first settled block */
+    double *profile;       /* profile[block*bins + bin] */
+    double *stationary;    /* [0 .. bins-1] */
+    double *time, *apart;  /* [0 .. blocks-1]: the block's middle (s), D^2 (R) */
+};
+
+static double distance_square(const struct sphere_profile *p, const double *a, const double *b) {
+    double sum = 0;
+    for (size_t k = 0; k < p->bins; k++)
+        sum += (a[k] - b[k]) * (a[k] - b[k]) * p->bin_R;
+    return sum;
+}
+
+static enum status divide(struct run_view *v, const struct sphere_profile *p,
+                          const double *settings, struct formation *f, struct fault *fault) {
+    const struct series *s = p->series;
+    double step_s = s->frames > 1 ? s->time[1] - s->time[0] : 0;
+    f->frames = step_s > 0 ? (size_t)fmax(1, round(settings[BLOCK_S] / step_s)) : 0;
+    f->blocks = f->frames ? s->frames / f->frames : 0;
+    while (f->settled < f->blocks &&
+           s->time[f->settled * f->frames] < settings[SETTLED_S] * (1 - 1e-6))
+        f->settled++;
+    if (f->blocks > BLOCKS_MAX || f->blocks < f->settled + 4)
+        return fault_set(fault, STATUS_BAD_INPUT,
+                         "%s: four blocks of %g s after %g s are needed, %d in all at most",
+                         run_view_path(v), settings[BLOCK_S], settings[SETTLED_S], (int)BLOCKS_MAX);
+    f->profile = malloc((f->blocks + 1) * p->bins * sizeof *f->profile);
+    f->time = malloc(2 * f->blocks * sizeof *f->time);
+    if (!f->profile || !f->time)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu profiles", f->blocks);
+    f->stationary = f->profile + f->blocks * p->bins;
+    f->apart = f->time + f->blocks;
+    sphere_profile_mean(p, f->settled * f->frames, s->frames - 1, f->stationary);
+    for (size_t i = 0; i < f->blocks; i++) {
+        size_t first = i * f->frames, last = first + f->frames - 1;
+        sphere_profile_mean(p, first, last, f->profile + i * p->bins);
+        f->time[i] = (s->time[first] + s->time[last]) / 2;
+        f->apart[i] = distance_square(p, f->profile + i * p->bins, f->stationary);
+    }
+    return STATUS_OK;
+}
+
+/* The first block that is as near to the stationary profile as settled blocks are. */
+static size_t first_near(const struct formation *f, double *floor) {
+    double mean = 0, square = 0, n = (double)(f->blocks - f->settled);
+    for (size_t i = f->settled; i < f->blocks; i++) {
+        mean += f->apart[i] / n;
+        square += f->apart[i] * f->apart[i] / n;
+    }
+    double limit = mean + 3 * sqrt(fmax(square - mean * mean, 0) * n / (n - 1));
+    *floor = mean;
+    size_t i = 0;
+    while (i < f->settled && f->apart[i] > limit)
+        i++;
+    return i;
+}
+
+/* When sigma first reaches .9 of the settled one, straight between blocks; NAN: never. */
+static enum status sigma_time(const struct sphere_profile *p, const struct formation *f,
+                              const struct interface_window *w, struct measurement *out,
+                              double *sigma, struct fault *fault) {
+    struct interface_fit fit;
+    enum status status = interface_fit(p->height_R, f->stationary, p->bins, w, &fit, fault);
+    double wanted = 0.9 * fit.sigma_R;
+    out->value[SETTLED_SIGMA] = fit.sigma_R;
+    out->value[SIGMA_TIME] = NAN;
+    for (size_t i = 0; i < f->blocks && !status; i++) {
+        status = interface_fit(p->height_R, f->profile + i * p->bins, p->bins, w, &fit, fault);
+        sigma[i] = fit.sigma_R;
+        if (isnan(out->value[SIGMA_TIME]) && sigma[i] >= wanted)
+            out->value[SIGMA_TIME] = i == 0 ? f->time[0]
+                                            : f->time[i - 1] + (f->time[i] - f->time[i - 1]) *
+                                                                   (wanted - sigma[i - 1]) /
+                                                                   (sigma[i] - sigma[i - 1]);
+    }
+    if (!status && isnan(out->value[SIGMA_TIME]))
+        observe_none(out, SIGMA_TIME, "sigma does not reach .9 of what it settles at");
+    return status;
+}
+
+static enum status measure_formation(struct run_view *v, const double *settings,
+                                     struct measurement *out, struct fault *fault) {
+    struct bed b = {0};
+    struct formation f = {0};
+    double sigma[BLOCKS_MAX];
+    const struct series *collisions;
+    enum status status = open_bed(v, &b, fault);
+    if (!status)
+        status = observe_values(v, "observables/collisions", 1, &collisions, fault);
+    if (!status)
+        status = observe_spheres_together(v, b.fraction.series, collisions, fault);
+    if (!status)
+        status = divide(v, &b.fraction, settings, &f, fault);
+    struct interface_window w = {.above_R = settings[FORMATION_ABOVE_R],
+                                 .phibar = b.input[BED_PHIBAR]};
+    if (!status)
+        status = sigma_time(&b.fraction, &f, &w, out, sigma, fault);
+    if (!status) {
+        size_t near = first_near(&f, &out->value[FLOOR]);
+        size_t frame = near * f.frames + f.frames / 2;
+        out->value[BLOCK_COUNT] = (double)f.blocks;
+        out->value[TIME] = f.time[near];
+        out->value[FORMED_COLLISIONS] = 2 * collisions->value[frame] / (double)b.spheres.count;
+        if (near == f.settled) {
+            observe_none(out, TIME, "not stationary before the time told as settled");
+            observe_none(out, FORMED_COLLISIONS, "not stationary before the time told as settled");
+        }
+        status = measurement_add_curve(out, "sigma", "sigma", f.time, sigma, f.blocks, fault);
+    }
+    if (!status)
+        status = measurement_add_curve(out, "apart", "D^2", f.time, f.apart, f.blocks, fault);
+    free(f.profile);
+    free(f.time);
+    sphere_profile_close(&b.fraction);
+    return status;
+}
+
+static const char *const INTERFACE_DATASETS[] = {
+    "profiles/packing_fraction", "profiles/temperature_xy",    "profiles/temperature_zz",
+    "observables/collisions",    "observables/centre_of_mass", NULL};
+static const char *const INTERFACE_CURVES[] = {"profile", "fit", "hydrostatic", "hydrostatic-local",
+                                               NULL};
+static const char *const FORMATION_DATASETS[] = {"profiles/packing_fraction",
+                                                 "observables/collisions", NULL};
+static const char *const FORMATION_CURVES[] = {"sigma", "apart", NULL};
+
+const struct recipe recipe_bed_interface = {
+    .name = "bed-interface",
+    .title = "Interface and foot of a bed at rest",
+    .source = "Fiege & Zippelius, Eq. 14",
+    .datasets = INTERFACE_DATASETS,
+    .setting = {{"from_s", "s", "samples before are left out", 0, 0, 1e9},
+                {"to_s", "s", "samples after are left out; 0: none", 0, 0, 1e9},
+                {"blocks", "1", "blocks of time, for errors", 5, 2, 100},
+                {"above_R", "R", "heights below are not fitted", 10, 0, 1e6},
+                {"plateau", "1", "0: fixed at phibar, 1: fitted", 0, 0, 1}},
+    .output = {{"sigma", "R", "width of the interface"},
+               {"sigma_error", "R", "standard, from blocks of time"},
+               {"height", "R", "height of the interface"},
+               {"height_error", "R", "standard, from blocks of time"},
+               {"plateau", "1", "of the fit"},
+               {"fit_rms", "1", "root mean square of the residuals"},
+               {"shoulder_rms", "1", "of those from h - 4 sigma to h - sigma"},
+               {"bulk", "1", "packing fraction of the middle fifth"},
+               {"bottom_peak", "1", "largest packing fraction within 4 R of the floor"},
+               {"peak_height", "R", "middle of the slab that has it"},
+               {"drift", "R", "of the centre of mass, later half less earlier half"},
+               {"temperature", "J", "of the middle fifth, about the slabs' mean velocities"},
+               {"temperature_zz", "J", "its vertical part"},
+               {"collision_rate", "1/s", "2 N_coll/(N t) in the window"},
+               {"collisions_per_particle", "1", "2 N_coll/N from time 0 to the window's end"},
+               {"walls", "1", "1: hard sides, 0: periodic; for predictions"},
+               {"above", "R", "the setting; for predictions"},
+               {"plateau_free", "1", "the setting; for predictions"}},
+    .curves = INTERFACE_CURVES,
+    .measure = measure_interface,
+};
+
+const struct recipe recipe_bed_formation = {
+    .name = "bed-formation",
+    .title = "From a sharp edge to a stationary profile",
+    .source = "Fiege & Zippelius, Fig. 1",
+    .datasets = FORMATION_DATASETS,
+    .setting = {{"block_s", "s", "length of a block", 0.04, 0, 1e9},
+                {"settled_s", "s", "stationary from here on", 1, 0, 1e9},
+                {"above_R", "R", "heights below are not fitted", 10, 0, 1e6}},
+    .output = {{"time", "s", "first block as near to the stationary profile as settled ones"},
+               {"collisions_per_particle", "1", "2 N_coll/N by then"},
+               {"sigma_time", "s", "when sigma first reaches .9 of the settled one"},
+               {"settled_sigma", "R", "of the mean settled profile"},
+               {"floor", "R", "D^2 of settled blocks"},
+               {"blocks", "1", "blocks in all"}},
+    .curves = FORMATION_CURVES,
+    .measure = measure_formation,
+};
