@@ -21,7 +21,7 @@
 #include <stdlib.h>
 
 enum { FROM_S, TO_S, MODE };
-enum { GROWTH, SPEED, WAVELENGTH, FIRST_AMPLITUDE, LAST_AMPLITUDE, FRACTION, MISFIT };
+enum { GROWTH, SPEED, WAVELENGTH, FIRST_AMPLITUDE, LAST_AMPLITUDE, FRACTION, MISFIT, TEMPERATURE };
 enum { AT_S };
 enum { SLAB_SPEED, SLAB_TIME, SLAB_FRACTION, SLAB_TEMPERATURE };
 
@@ -71,14 +71,26 @@ static enum status add_curves(const struct mode *m, struct measurement *out, str
                : measurement_add_curve(out, "phase", "phase", m->time, m->phase, m->count, fault);
 }
 
+/* Of the samples first .. last, which are those of the places. */
+static double mean_of(const struct series *s, size_t first, size_t last) {
+    double sum = 0;
+    for (size_t f = first; f <= last; f++)
+        sum += s->value[f];
+    return sum / (double)(last - first + 1);
+}
+
 static enum status measure(struct run_view *v, const double *settings, struct measurement *out,
                            struct fault *fault) {
     struct observe_spheres b;
-    const struct series *x;
+    const struct series *x, *heat;
     size_t first = 0, last = 0;
     enum status status = observe_spheres(v, &b, fault);
     if (!status)
         status = observe_spheres_vectors(v, "position", &b, &x, fault);
+    if (!status)
+        status = observe_values(v, "observables/temperature_xy", 1, &heat, fault);
+    if (!status)
+        status = observe_spheres_together(v, x, heat, fault);
     if (!status)
         status =
             observe_spheres_window(v, x, settings[FROM_S], settings[TO_S], &first, &last, fault);
@@ -107,6 +119,7 @@ static enum status measure(struct run_view *v, const double *settings, struct me
     fit(&m, k, out);
     out->value[WAVELENGTH] = b.box_m[2] / settings[MODE];
     out->value[FRACTION] = b.packing_fraction;
+    out->value[TEMPERATURE] = mean_of(heat, first, last);
     status = add_curves(&m, out, fault);
     free(m.time);
     return status;
@@ -141,7 +154,8 @@ static enum status measure_slab(struct run_view *v, const double *settings, stru
     return STATUS_OK;
 }
 
-static const char *const DATASETS[] = {"particles/spheres/position", NULL};
+static const char *const DATASETS[] = {"particles/spheres/position", "observables/temperature_xy",
+                                       NULL};
 static const char *const SLAB_DATASETS[] = {"observables/momentum", "observables/kinetic_energy",
                                             NULL};
 static const char *const CURVES[] = {"amplitude", "phase", NULL};
@@ -160,7 +174,8 @@ const struct recipe recipe_sphere_wave = {
                {"first_amplitude", "1", "relative, at the window's start"},
                {"last_amplitude", "1", "relative, at the window's end"},
                {"packing_fraction", "1", "of the whole box"},
-               {"misfit", "1", "weighted root mean square of ln amplitude about the line"}},
+               {"misfit", "1", "weighted root mean square of ln amplitude about the line"},
+               {"temperature", "J", "horizontal, mean over the window"}},
     .curves = CURVES,
     .measure = measure,
 };

@@ -56,30 +56,50 @@ static double slab_speed(const double *in) {
 
 /* As slab_speed up to the packing fraction; then thermal_energy_J, radius_m, mass_kg,
  * layer_R, wavelength_m. */
-static double complex wave_root(const double *in) {
+static struct spheres_wave wave_of(const double *in, double wavelength_m) {
     struct spheres_gas g = {in[6], in[7], in[8], in[9]};
-    struct spheres_wave w = {.packing_fraction = in[6],
-                             .push_m_per_s2 = spheres_push(in[2], in[3], in[4], in[5], in[1]),
-                             .drag_per_s = drag(in),
-                             .layer_m = in[10] * in[8],
-                             .wavelength_m = in[11],
-                             .sound2_m2_per_s2 = spheres_stiffness(in[6]) * in[7] / in[9],
-                             .viscosity_m2_per_s = spheres_longitudinal(&g)};
-    return spheres_wave_root(&w);
+    return (struct spheres_wave){.packing_fraction = in[6],
+                                 .push_m_per_s2 = spheres_push(in[2], in[3], in[4], in[5], in[1]),
+                                 .drag_per_s = drag(in),
+                                 .layer_m = in[10] * in[8],
+                                 .wavelength_m = wavelength_m,
+                                 .sound2_m2_per_s2 = spheres_stiffness(in[6]) * in[7] / in[9],
+                                 .viscosity_m2_per_s = spheres_longitudinal(&g)};
 }
 
 static double wave_growth(const double *in) {
-    return creal(wave_root(in));
+    struct spheres_wave w = wave_of(in, in[11]);
+    return creal(spheres_wave_root(&w));
 }
 
 static double wave_speed(const double *in) {
-    return -cimag(wave_root(in)) * in[11] / (2 * M_PI);
+    struct spheres_wave w = wave_of(in, in[11]);
+    return -cimag(spheres_wave_root(&w)) * in[11] / (2 * M_PI);
+}
+
+static double wave_ratio(const double *in) {
+    struct spheres_wave w = wave_of(in, in[11]);
+    return spheres_wave_ratio(&w);
+}
+
+/* In radii. */
+static double fastest_wavelength(const double *in) {
+    struct spheres_wave w = wave_of(in, NAN);
+    return spheres_fastest_wave(&w) / in[8];
+}
+
+/* Phase speed of the wave that grows fastest. */
+static double fastest_speed(const double *in) {
+    struct spheres_wave w = wave_of(in, NAN);
+    w.wavelength_m = spheres_fastest_wave(&w);
+    return -cimag(spheres_wave_root(&w)) * w.wavelength_m / (2 * M_PI);
 }
 
 #define DRAG  "drag_per_s", "phibar", "exponent"
 #define KICKS DRAG, "kick_rate_per_s", "kick_variance_m2_per_s2"
 #define DRIVE DRAG, "gravity_m_per_s2", "density_contrast", "drive_scale", "packing_fraction"
-#define WAVE  DRIVE, "thermal_energy_J", "radius_m", "mass_kg", "layer_R", "wavelength_m"
+#define STATE DRIVE, "thermal_energy_J", "radius_m", "mass_kg", "layer_R"
+#define WAVE  STATE, "wavelength_m"
 
 const struct prediction PREDICT_SUSPENSION[PREDICT_SUSPENSION_COUNT] = {
     {.name = "suspension-drag",
@@ -130,4 +150,22 @@ const struct prediction PREDICT_SUSPENSION[PREDICT_SUSPENSION_COUNT] = {
      .source = "Fiege & Zippelius, Eq. 9, linearised; Enskog's viscosity",
      .input = {WAVE, NULL},
      .at = wave_speed},
+    {.name = "stability-ratio",
+     .title = "Kinematic over sound speed, with layers and viscosity: above 1 the wave grows",
+     .unit = "1",
+     .source = "Fiege & Zippelius, Eq. 9, linearised; Enskog's viscosity",
+     .input = {WAVE, NULL},
+     .at = wave_ratio},
+    {.name = "fastest-wavelength",
+     .title = "Wavelength of the wave of density that grows fastest, in radii",
+     .unit = "R",
+     .source = "Fiege & Zippelius, Eq. 9, linearised; Enskog's viscosity",
+     .input = {STATE, NULL},
+     .at = fastest_wavelength},
+    {.name = "fastest-wave-speed",
+     .title = "Phase speed of the wave of density that grows fastest, upwards",
+     .unit = "m/s",
+     .source = "Fiege & Zippelius, Eq. 9, linearised; Enskog's viscosity",
+     .input = {STATE, NULL},
+     .at = fastest_speed},
 };

@@ -43,6 +43,7 @@ static const struct recipe *const RECIPES[] = {
     &recipe_sphere_order,
     &recipe_sphere_mirror,
     &recipe_sphere_fingerprint,
+    &recipe_bed_stripes,
     &recipe_bed_interface,
     &recipe_bed_formation,
     &recipe_bed_temperature,

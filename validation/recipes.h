@@ -42,6 +42,7 @@ extern const struct recipe recipe_sphere_overlap;      /* observe_spheres_places
 extern const struct recipe recipe_sphere_order;        /* observe_spheres_places.c */
 extern const struct recipe recipe_sphere_mirror;       /* observe_spheres_places.c */
 extern const struct recipe recipe_sphere_fingerprint;  /* observe_spheres_places.c */
+extern const struct recipe recipe_bed_stripes;         /* observe_bed_stripes.c */
 extern const struct recipe recipe_bed_interface;       /* observe_interface.c */
 extern const struct recipe recipe_bed_formation;       /* observe_interface.c */
 extern const struct recipe recipe_bed_temperature;     /* observe_rest.c */

@@ -1,6 +1,8 @@
 /* sphere_laws.c -- see sphere_laws.h. */
 #include "validation/sphere_laws.h"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
 #include <math.h>
 
 /* -- equation of state -------------------------------------------------------- */
@@ -84,12 +86,57 @@ double spheres_push(double exponent, double gravity_m_per_s2, double density_con
     return exponent * gravity_m_per_s2 * density_contrast * drive_scale / (1 - phibar);
 }
 
+/* phi b' W(k) of the wave (m/s^2). */
+static double layered_push(const struct spheres_wave *w) {
+    double half = M_PI * w->layer_m / w->wavelength_m; /* k Delta/2 */
+    return w->packing_fraction * w->push_m_per_s2 * (half > 0 ? sin(half) / half : 1);
+}
+
+/* gamma + nu_l k^2 (1/s). */
+static double damping(const struct spheres_wave *w) {
+    double k = 2 * M_PI / w->wavelength_m;
+    return w->drag_per_s + w->viscosity_m2_per_s * k * k;
+}
+
 double complex spheres_wave_root(const struct spheres_wave *w) {
-    double k = 2 * M_PI / w->wavelength_m, half = k * w->layer_m / 2;
-    double window = half > 0 ? sin(half) / half : 1;
-    double damping = w->drag_per_s + w->viscosity_m2_per_s * k * k;
-    double complex rest =
-        w->sound2_m2_per_s2 * k * k + I * w->packing_fraction * w->push_m_per_s2 * window * k;
+    double k = 2 * M_PI / w->wavelength_m, rate = damping(w);
+    double complex rest = w->sound2_m2_per_s2 * k * k + I * layered_push(w) * k;
     /* csqrt has a real part that is not negative. */
-    return (-damping + csqrt(damping * damping - 4 * rest)) / 2;
+    return (-rate + csqrt(rate * rate - 4 * rest)) / 2;
+}
+
+double spheres_wave_ratio(const struct spheres_wave *w) {
+    return layered_push(w) / (damping(w) * sqrt(w->sound2_m2_per_s2));
+}
+
+/* Minus the growth rate (1/s) of a wave of exp(x) layers. */
+static double decay_at(double x, void *wave) {
+    struct spheres_wave w = *(const struct spheres_wave *)wave;
+    w.wavelength_m = exp(x) * w.layer_m;
+    return -creal(spheres_wave_root(&w));
+}
+
+double spheres_fastest_wave(const struct spheres_wave *w) {
+    enum { STEPS = 300, REFINEMENTS = 60 };
+    struct spheres_wave wave = *w;
+    const double step = log(1000) / STEPS;
+    gsl_function f = {decay_at, &wave};
+    int best = 0;
+    for (int i = 1; i <= STEPS; i++)
+        if (decay_at(i * step, &wave) < decay_at(best * step, &wave))
+            best = i;
+    double x = best * step, least = decay_at(x, &wave);
+    /* A minimum within the range, of growing waves, strictly below its neighbours. */
+    if (best == 0 || best == STEPS || !(least < 0) || !(least < decay_at(x - step, &wave)) ||
+        !(least < decay_at(x + step, &wave)))
+        return NAN;
+    gsl_min_fminimizer *m = gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent);
+    if (!m)
+        return NAN;
+    int error = gsl_min_fminimizer_set(m, &f, x, x - step, x + step);
+    for (int i = 0; error == GSL_SUCCESS && i < REFINEMENTS; i++)
+        error = gsl_min_fminimizer_iterate(m);
+    x = gsl_min_fminimizer_x_minimum(m);
+    gsl_min_fminimizer_free(m);
+    return exp(x) * w->layer_m;
 }

@@ -16,6 +16,7 @@
  *     gamma = gamma0 (1-phibar)^-n                               FZ Eq. 6
  *     b' = n g (rho_s-rho_f)/rho_s drive_scale/(1-phibar)        FZ Eq. 9
  *     s^2 + (gamma + nu_l k^2) s + i phi b' W k + c_T^2 k^2 = 0  linear waves exp(st + ikz)
+ *     phi b' W/((gamma + nu_l k^2) c_T)                          above 1: the wave grows
  *
  * with W = sin(k Delta/2)/(k Delta/2), c_T^2 = (T/m) d(phi Z)/d phi and
  * nu_l = (4 eta/3 + zeta)/(n m).
@@ -71,5 +72,11 @@ struct spheres_wave {
 };
 /* The root s (1/s) that grows fastest. */
 double complex spheres_wave_root(const struct spheres_wave *w);
+/* phi b' W/((gamma + nu_l k^2) c_T): the wave grows where it is above 1.  Long waves: the
+ * speed of kinematic waves over that of sound. */
+double spheres_wave_ratio(const struct spheres_wave *w);
+/* The wavelength (m), between one and 1000 layers' thickness, that grows fastest, whatever
+ * w->wavelength_m is; NAN where none grows. */
+double spheres_fastest_wave(const struct spheres_wave *w);
 
 #endif

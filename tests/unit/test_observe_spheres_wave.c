@@ -26,6 +26,7 @@ START_TEST(growth_and_speed_of_a_planted_wave_are_found) {
         double t = 0.02 * n;
         places(0.11 * exp(sigma * t), 0.3 + k * speed * t, x);
         spheres_vectors(&f, "position", N, x, t);
+        spheres_counter(&f, "temperature_xy", 1.9e-9 * (1 + t), t);
     }
     unit_ok(fake_measure(&f, "sphere-wave", "mode", 2, &m), &f.fault);
     ck_assert_double_eq_tol(fake_value(&m, "sphere-wave", "growth"), sigma, 1e-3);
@@ -35,6 +36,7 @@ START_TEST(growth_and_speed_of_a_planted_wave_are_found) {
     ck_assert_double_eq_tol(fake_value(&m, "sphere-wave", "last_amplitude"),
                             0.11 * exp(sigma * 0.28), 1e-4);
     ck_assert_double_lt(fake_value(&m, "sphere-wave", "misfit"), 1e-3);
+    ck_assert_double_eq_tol(fake_value(&m, "sphere-wave", "temperature"), 1.9e-9 * 1.14, 1e-20);
     measurement_free(&m);
 }
 END_TEST

@@ -4,6 +4,7 @@
 #include "validation/prediction.h"
 
 #include <math.h>
+#include <string.h>
 
 static double at(const char *name, const double *input) {
     const struct prediction *p = prediction_find(name);
@@ -83,6 +84,19 @@ START_TEST(waves_grow_where_the_kinematic_wave_outruns_sound) {
     double c = 4.65 * 9.81 * 0.6 / 0.7 * 0.3 / gamma, sound[] = {0.3, 2e-9, 2.262e-6};
     double ratio = c / sqrt(at("sphere-sound-square", sound));
     ck_assert_double_eq_tol(ratio, 4.7, 0.05); /* shared figure of the stability table */
+    double far[12];
+    memcpy(far, in, sizeof far);
+    far[11] = 1e4; /* neither layers nor viscosity matter */
+    ck_assert_double_eq_tol(at("stability-ratio", far), ratio, 1e-6 * ratio);
+    double peak = at("fastest-wavelength", in) * in[8], beside[12];
+    memcpy(beside, in, sizeof beside);
+    beside[11] = peak;
+    double most = at("density-wave-growth", beside);
+    ck_assert_double_eq_tol(at("fastest-wave-speed", in), at("density-wave-speed", beside), 1e-12);
+    for (int side = -1; side <= 1; side += 2) {
+        beside[11] = peak * (1 + 0.03 * side);
+        ck_assert_double_lt(at("density-wave-growth", beside), most);
+    }
     ck_assert_double_gt(at("density-wave-growth", in), 0);
     in[5] = 0.9 / ratio; /* slower than sound */
     ck_assert_double_lt(at("density-wave-growth", in), 0);

@@ -114,6 +114,45 @@ START_TEST(wave_root_is_what_integration_tends_to) {
 }
 END_TEST
 
+/* On both sides of the ratio 1, by a millionth, the root changes its sign. */
+START_TEST(waves_grow_exactly_where_their_ratio_is_above_one) {
+    struct spheres_wave w = {.packing_fraction = 0.37,
+                             .push_m_per_s2 = 11.3,
+                             .drag_per_s = 31.7,
+                             .layer_m = 5.3e-3,
+                             .wavelength_m = 0.0217,
+                             .sound2_m2_per_s2 = 8.7e-3,
+                             .viscosity_m2_per_s = 1.1e-4};
+    double push = w.push_m_per_s2 / spheres_wave_ratio(&w);
+    w.push_m_per_s2 = push * (1 + 1e-6);
+    ck_assert_double_gt(creal(spheres_wave_root(&w)), 0);
+    w.push_m_per_s2 = push * (1 - 1e-6);
+    ck_assert_double_lt(creal(spheres_wave_root(&w)), 0);
+}
+END_TEST
+
+START_TEST(no_wavelength_grows_faster_than_the_fastest) {
+    struct spheres_wave w = {.packing_fraction = 0.31,
+                             .push_m_per_s2 = 39.1,
+                             .drag_per_s = 26.3,
+                             .layer_m = 6e-3,
+                             .sound2_m2_per_s2 = 9.1e-3,
+                             .viscosity_m2_per_s = 9e-5};
+    double fastest = spheres_fastest_wave(&w), most = -INFINITY, at = 0;
+    for (w.wavelength_m = 6e-3; w.wavelength_m < 1; w.wavelength_m *= 1.0003) {
+        double growth = creal(spheres_wave_root(&w));
+        if (growth > most) {
+            most = growth;
+            at = w.wavelength_m;
+        }
+    }
+    ck_assert_double_gt(most, 10);
+    ck_assert_double_eq_tol(fastest, at, 1e-3 * at);
+    w.push_m_per_s2 /= 10;
+    ck_assert_double_nan(spheres_fastest_wave(&w));
+}
+END_TEST
+
 START_TEST(drag_and_push_are_the_papers) {
     ck_assert_double_eq_tol(spheres_drag(5, 0.3, 4.65), 5 * exp(4.65 * -log1p(-0.3)), 1e-12);
     ck_assert_double_eq_tol(spheres_push(4.65, 9.81, 0.6, 0.284, 0.45),
@@ -128,6 +167,8 @@ int main(void) {
                                   dilute_gas_has_chapman_and_enskogs_coefficients,
                                   dense_gas_is_more_viscous_and_diffuses_less,
                                   wave_root_is_what_integration_tends_to,
+                                  waves_grow_exactly_where_their_ratio_is_above_one,
+                                  no_wavelength_grows_faster_than_the_fastest,
                                   drag_and_push_are_the_papers,
                                   NULL};
     return unit_run("sphere_laws", tests);
