@@ -13,7 +13,9 @@ if(GIT)
   file(REAL_PATH ${SOURCE} source)
   if(failed STREQUAL "0" AND answer MATCHES "^(.*)\n([0-9a-f]+)$" AND CMAKE_MATCH_1 STREQUAL source)
     set(COMMIT ${CMAKE_MATCH_2})
+    # Stored references are no part of a build: accepting some leaves it as clean as it was.
     execute_process(COMMAND ${GIT} -C ${SOURCE} --no-optional-locks status --porcelain
+                            -- . ":(exclude)reference"
                     OUTPUT_VARIABLE changes RESULT_VARIABLE failed ERROR_QUIET)
     if(failed STREQUAL "0")
       set(DIRTY clean)

@@ -18,7 +18,7 @@ const char *build_flags(void);    /* the C flags of this build type */
 char *build_line(const char *program);
 
 /* The members of a JSON object that is open in j: commit, dirty, compiler,
- * flags, versions of GSL, HDF5 and libyaml, CPU model, host. */
+ * flags, versions of GSL, HDF5 and libyaml, machine, C library, CPU model, host. */
 void build_describe(struct json *j);
 
 #endif
