@@ -11,7 +11,7 @@ static const char *const change_choices[] = {"recompute", "keep", NULL};
 static const char *const schedule_choices[] = {"poisson", "round-robin", "synchronous", NULL};
 static const char *const drive_choices[] = {"none", "linear", "full", NULL};
 static const char *const layer_choices[] = {"exact", "histogram", NULL};
-static const char *const start_choices[] = {"random", "from-file", "list", NULL};
+static const char *const start_choices[] = {"random", "from-file", "list", "sharp", NULL};
 
 #define REAL(name, unit, standard, min, max, source, doc)                                          \
     { name, PARAMETER_REAL, unit, standard, min, max, NULL, source, doc }
@@ -71,12 +71,14 @@ const struct parameter suspension_parameter_table[] = {
     REAL("histogram_bin_R", "R", "0.25", 1e-3, 1e7, "docs/theory.md", "its bins"),
     REAL("histogram_refresh", "1/f_dr", "0.1", 1e-3, 100, "docs/theory.md",
          "how often it is made anew; also how often measured rates are read"),
-    CHOICE("start", "random", start_choices, "FZ, Section IV A",
-           "placed at random and grown, a result file, or lists"),
+    CHOICE(
+        "start", "random", start_choices, "FZ, Section IV A",
+        "placed at random and grown in the whole box, or (sharp) under a lid that leaves them at "
+        "phibar and is lifted then; a result file; lists"),
     REAL("start_growth_rate", "thermal speeds", "0.05", 1e-4, 1, "docs/theory.md",
-         "start random: growth of the diameter"),
+         "start random, sharp: growth of the diameter"),
     REAL("start_temperature", "T", "1", 0, 1e6, "docs/theory.md",
-         "start random: temperature over temperature_scale thermal_energy_J"),
+         "start random, sharp: temperature over temperature_scale thermal_energy_J"),
     INTEGER("wave_mode", "1", "0", 0, 1000, "verification cases",
             "start random: waves of density in the periodic height"),
     REAL("wave_amplitude", "1", "0", 0, 0.5, "verification cases", "their relative amplitude"),
@@ -101,6 +103,11 @@ double suspension_parameters_volume(const struct suspension_parameters *v) {
 double suspension_parameters_packing(const struct suspension_parameters *v) {
     return (double)v->particles * suspension_parameters_volume(v) /
            (v->box[0] * v->box[1] * v->box[2]);
+}
+
+double suspension_parameters_filled_height(const struct suspension_parameters *v) {
+    return (double)v->particles * suspension_parameters_volume(v) /
+           (v->phibar * v->box[0] * v->box[1]);
 }
 
 double suspension_parameters_drag(const struct suspension_parameters *v, double phi) {
@@ -218,26 +225,55 @@ static void check_box(const struct parameter_set *p, const struct suspension_par
     }
 }
 
-static void check_start(const struct parameter_set *p, const struct suspension_parameters *v,
-                        struct fault *fault) {
-    bool hard = v->boundary[0] == BOUNDARY_HARD || v->boundary[1] == BOUNDARY_HARD ||
-                v->boundary[2] == BOUNDARY_HARD;
+/* Spheres that are grown in a space of packing fraction `phi`, before any wave is made. */
+static void check_growth(const struct parameter_set *p, const struct suspension_parameters *v,
+                         const char *name, double phi, struct fault *fault) {
+    bool hard = v->start == SPHERES_SHARP || v->boundary[0] == BOUNDARY_HARD ||
+                v->boundary[1] == BOUNDARY_HARD || v->boundary[2] == BOUNDARY_HARD;
     double most = hard ? SUSPENSION_PACKING_HARD : SUSPENSION_PACKING_PERIODIC;
-    double phi = suspension_parameters_packing(v), grown = phi * pow(1 + v->wave_amplitude, 3);
-    if (v->start == SPHERES_RANDOM && grown > most * (1 + 1e-9))
-        parameters_fault(p, "packing_fraction", fault,
+    double grown = phi * pow(1 + v->wave_amplitude, 3);
+    if (grown > most * (1 + 1e-9))
+        parameters_fault(p, name, fault,
                          "%zu spheres fill %.4f of the box%s; the start reaches %.2f %s",
                          v->particles, grown, grown > phi ? " before the wave is made" : "", most,
                          hard ? "between hard walls" : "in a periodic box");
+    if (grown > 0.12 && !(v->temperature > 0))
+        parameters_fault(p, "thermal_energy_J", fault,
+                         "0 J: spheres at a packing fraction of %.4f are grown while they move",
+                         grown);
+}
+
+static void check_sharp(const struct parameter_set *p, const struct suspension_parameters *v,
+                        struct fault *fault) {
+    double top = suspension_parameters_filled_height(v) / v->radius; /* (R) */
+    if (!(v->phibar > 0))
+        parameters_fault(p, "phibar", fault, "0 with start: sharp, which is a bed of phibar");
+    else if (v->boundary[2] != BOUNDARY_HARD)
+        parameters_fault(p, "boundary_z", fault,
+                         "start: sharp stands on a floor: boundary_z: hard");
+    else if (!(top > 2))
+        parameters_fault(p, "start", fault, "sharp: a bed %g R high; it must be higher than 2 R",
+                         top);
+    else if (!(v->box[2] / v->radius > top * (1 + 1e-9)))
+        parameters_fault(p, "height_R", fault,
+                         "a box %g R high; start: sharp fills %g R of it at phibar %g, and it must "
+                         "be higher",
+                         v->box[2] / v->radius, top, v->phibar);
+    else
+        check_growth(p, v, "phibar", v->phibar, fault);
+}
+
+static void check_start(const struct parameter_set *p, const struct suspension_parameters *v,
+                        struct fault *fault) {
+    if (v->start == SPHERES_RANDOM)
+        check_growth(p, v, "packing_fraction", suspension_parameters_packing(v), fault);
+    if (v->start == SPHERES_SHARP)
+        check_sharp(p, v, fault);
     if ((v->wave_mode > 0) != (v->wave_amplitude > 0))
         parameters_fault(p, "wave_mode", fault, "%d with a wave_amplitude of %g", v->wave_mode,
                          v->wave_amplitude);
     if (v->wave_mode > 0 && (v->start != SPHERES_RANDOM || v->boundary[2] != BOUNDARY_PERIODIC))
         parameters_fault(p, "wave_mode", fault, "needs start: random and boundary_z: periodic");
-    if (v->start == SPHERES_RANDOM && grown > 0.12 && !(v->temperature > 0))
-        parameters_fault(p, "thermal_energy_J", fault,
-                         "0 J: spheres at a packing fraction of %.4f are grown while they move",
-                         grown);
 }
 
 static void check_lists(const struct parameter_set *p, const struct suspension_parameters *v,
@@ -304,7 +340,7 @@ enum status suspension_parameters_read(const struct parameter_set *p,
     read_spheres(p, out);
     read_fluid(p, out);
     read_lists(p, out);
-    if (out->start == SPHERES_RANDOM && out->particles < 2)
+    if ((out->start == SPHERES_RANDOM || out->start == SPHERES_SHARP) && out->particles < 2)
         parameters_fault(p, "particles", fault,
                          "a single sphere has no temperature; use start: list");
     find_box(p, out, fault);

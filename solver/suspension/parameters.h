@@ -28,7 +28,7 @@ enum noise_rate {
 };
 enum kick_schedule { KICKS_POISSON, KICKS_ROUND_ROBIN, KICKS_SYNCHRONOUS };
 enum drive_law { DRIVE_NONE, DRIVE_LINEAR, DRIVE_FULL };
-enum sphere_start { SPHERES_RANDOM, SPHERES_FROM_FILE, SPHERES_LIST };
+enum sphere_start { SPHERES_RANDOM, SPHERES_FROM_FILE, SPHERES_LIST, SPHERES_SHARP };
 
 /* Packing fractions that Lubachevsky-Stillinger growth at the default speed reached
  * with 1e4 spheres: beyond, it is refused rather than tried. */
@@ -82,6 +82,10 @@ enum status suspension_parameters_read(const struct parameter_set *p,
 /* 4 pi R^3/3 (m^3); spheres' volume over that of the box. */
 double suspension_parameters_volume(const struct suspension_parameters *v);
 double suspension_parameters_packing(const struct suspension_parameters *v);
+
+/* Height that the spheres fill at packing fraction phibar, across the whole box (m): N V/(phibar
+ * A). */
+double suspension_parameters_filled_height(const struct suspension_parameters *v);
 
 /* gamma(phi) = gamma0 (1 - phi)^-n (1/s), FZ Eq. 6. */
 double suspension_parameters_drag(const struct suspension_parameters *v, double phi);

@@ -78,13 +78,18 @@ static void make_wave(const struct suspension_parameters *v, double *position) {
     }
 }
 
-static enum status start_random(const struct suspension_parameters *v, uint64_t seed,
-                                double *position, double *velocity, double *collisions,
-                                struct fault *fault) {
+/* -- grown -------------------------------------------------------------------------- */
+
+static enum status start_grown(const struct suspension_parameters *v, uint64_t seed,
+                               double *position, double *velocity, double *collisions,
+                               struct fault *fault) {
     struct engine_setup s = suspension_start_setup(v);
     s.radius_m *= 1 + v->wave_amplitude;
     s.restitution = 1;
     s.guard = GUARD_NONE;
+    if (v->start == SPHERES_SHARP)
+        s.box_m[2] =
+            suspension_parameters_filled_height(v); /* the lid, lifted when they are grown */
     struct grow_rule rule = {
         .setup = s, .rate = v->growth_rate, .square_speed = v->temperature / v->mass, .seed = seed};
     if (grow_spheres(&rule, position, collisions, fault) != STATUS_OK)
@@ -159,8 +164,8 @@ enum status suspension_start(const struct suspension_parameters *v, struct h5_re
                          "a start_file is given, but start is not from-file");
     if (v->start == SPHERES_FROM_FILE)
         return start_from_file(v, file, position, velocity, fault);
-    if (v->start == SPHERES_RANDOM)
-        return start_random(v, seed, position, velocity, collisions, fault);
+    if (v->start == SPHERES_RANDOM || v->start == SPHERES_SHARP)
+        return start_grown(v, seed, position, velocity, collisions, fault);
     start_list(v, position, velocity);
     return STATUS_OK;
 }

@@ -10,6 +10,11 @@
  *            With a wave, spheres grow to 1 + A times the diameter; then heights are
  *            mapped so that the density is 1 + A sin(2 pi k z/L): distances shrink by
  *            1 + A at most, so that none overlap.
+ * sharp      The same, grown not in the whole box but between the floor and a hard lid at
+ *            the height h = N V/(phibar A) where phibar fills it: a fluid in equilibrium
+ *            without gravity, layered at floor and lid.  Then the lid is lifted.  Centres
+ *            keep a radius from both, so phi(z) of centres is phibar h/(h - 2R) between.
+ *            Source: Fiege & Zippelius (2013), Section IV A.
  * from-file  The last particle sample of an earlier suspension result, whose spheres
  *            must be as many and as large; the box may be another.
  * list       Centres and velocities as given.
