@@ -16,7 +16,7 @@ void html_text(struct page *p, const char *before, const char *text, const char 
 }
 
 void html_verdict(struct page *p, enum verdict verdict) {
-    static const char *const symbol[] = {"✓", "✗", "?"};
+    static const char *const symbol[] = {"✓", "✗", "?", "≠"};
     fprintf(p->out,
             "<span class=\"verdict %s\"><span class=\"symbol\" aria-hidden=\"true\">%s</span> "
             "%s</span>",

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { MAX_SYMBOLS = 60, RANKS = 4 };
+enum { MAX_SYMBOLS = 60, RANKS = 5 };
 
 static void put_banner(struct page *p) {
     const struct report *r = p->report;
@@ -20,7 +20,7 @@ static void put_banner(struct page *p) {
 
 /* A pass of a modified solver is not shown in green. */
 static void put_sentence(struct page *p) {
-    static const char *const symbol[] = {"✓", "✗", "?"};
+    static const char *const symbol[] = {"✓", "✗", "?", "≠"};
     enum verdict verdict = report_verdict(p->report);
     bool is_doubtful = p->report->modified && verdict == VERDICT_PASS;
     fprintf(p->out,
@@ -43,6 +43,7 @@ static void put_counts(struct page *p) {
     put_count(p, "pass", n.pass, n.pass == 1 ? "check passes" : "checks pass");
     put_count(p, "fail", n.fail, n.fail == 1 ? "check fails" : "checks fail");
     put_count(p, "inconclusive", n.inconclusive, "inconclusive");
+    put_count(p, "known", n.known, n.known == 1 ? "known disagreement" : "known disagreements");
     put_count(p, "skipped", n.skipped, n.skipped == 1 ? "case not run" : "cases not run");
     fprintf(p->out, "</ul>\n");
 }
@@ -121,7 +122,7 @@ static void put_facts(struct page *p) {
 }
 
 static void put_symbols(struct page *p, const struct report_case *c) {
-    static const char *const symbol[] = {"✓", "✗", "?"};
+    static const char *const symbol[] = {"✓", "✗", "?", "≠"};
     fprintf(p->out, "<td class=\"symbols\" aria-hidden=\"true\">");
     for (size_t i = 0; i < c->row_count && i < MAX_SYMBOLS; i++)
         fprintf(p->out, "<i class=\"%s\">%s</i>", verdict_name(c->row[i].verdict),
@@ -145,8 +146,9 @@ static void put_matrix_row(struct page *p, const struct report_case *c) {
     html_text(p, "\">", c->name, "</a>");
     html_text(p, "<span class=\"title\">", c->title, "</span></th>");
     fprintf(p->out,
-            "<td class=\"num\">%zu</td><td class=\"num\">%zu</td><td class=\"num\">%zu</td>",
-            n.pass, n.fail, n.inconclusive);
+            "<td class=\"num\">%zu</td><td class=\"num\">%zu</td><td class=\"num\">%zu</td>"
+            "<td class=\"num\">%zu</td>",
+            n.pass, n.fail, n.inconclusive, n.known);
     put_symbols(p, c);
     fprintf(p->out, "<td>");
     if (report_worst(&one))
@@ -158,8 +160,9 @@ static void put_matrix_row(struct page *p, const struct report_case *c) {
 static int rank_of(const struct report_case *c) {
     if (c->row_count == 0)
         return RANKS - 1;
-    enum verdict verdict = html_case_verdict(c);
-    return verdict == VERDICT_FAIL ? 0 : verdict == VERDICT_INCONCLUSIVE ? 1 : 2;
+    static const int rank[] = {
+        [VERDICT_FAIL] = 0, [VERDICT_INCONCLUSIVE] = 1, [VERDICT_KNOWN] = 2, [VERDICT_PASS] = 3};
+    return rank[html_case_verdict(c)];
 }
 
 static void put_matrix(struct page *p) {
@@ -169,6 +172,7 @@ static void put_matrix(struct page *p) {
                     "<th scope=\"col\" class=\"num\">Pass</th>"
                     "<th scope=\"col\" class=\"num\">Fail</th>"
                     "<th scope=\"col\" class=\"num\">Inconclusive</th>"
+                    "<th scope=\"col\" class=\"num\">Known</th>"
                     "<th scope=\"col\" aria-hidden=\"true\">Check by check</th>"
                     "<th scope=\"col\">Worst margin used</th></tr></thead>\n<tbody>\n");
     for (int rank = 0; rank < RANKS; rank++) {

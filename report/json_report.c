@@ -1,7 +1,7 @@
 /* json_report.c -- results.json: every row as judged, for programs.
  *
  *     {"schema": "bedcheck-results 1", "suite", "tier", "solver", "solver_key", "started",
- *      "modified", "modification", "verdict", "counts": {pass, fail, inconclusive, skipped},
+ *      "modified", "modification", "verdict", "counts": {pass, fail, inconclusive, known, skipped},
  *      "checks": [{case, point, check, observable, unit, measured, uncertainty, expected,
  *                  expected_uncertainty, tolerance, comparison, kind, verdict, because, reason,
  *                  runs: [id], values: [number], seeds: [integer], detectable, alarm_rate,
@@ -107,6 +107,7 @@ static void put_head(struct json *j, const struct report *r) {
     put_count(j, "pass", count.pass);
     put_count(j, "fail", count.fail);
     put_count(j, "inconclusive", count.inconclusive);
+    put_count(j, "known", count.known);
     put_count(j, "skipped", count.skipped);
     json_end_object(j);
 }

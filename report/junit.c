@@ -3,7 +3,8 @@
  * One testsuite a case, one testcase a row.  GitLab and Jenkins know a test by
  * classname and name, so that pair is unique here: classname is TIER.CASE with
  * '/' as '.', name is "check [point]", numbered where a case repeats it.  An
- * inconclusive row is a failure of type "inconclusive", never a pass.
+ * inconclusive row is a failure of type "inconclusive", never a pass; a known disagreement is
+ * skipped, with its reason.
  */
 #include "report/escape.h"
 #include "report/report.h"
@@ -80,6 +81,12 @@ static void put_failure(FILE *out, const struct report_row *row) {
     fprintf(out, "</failure>\n");
 }
 
+static void put_known(FILE *out, const struct report_row *row) {
+    fprintf(out, "      <skipped");
+    put_attribute(out, "message", row->reason);
+    fprintf(out, "/>\n");
+}
+
 static void put_row(FILE *out, const struct report *r, const struct report_case *c, size_t i) {
     const struct report_row *row = &c->row[i];
     size_t earlier = earlier_namesakes(c, i);
@@ -100,7 +107,10 @@ static void put_row(FILE *out, const struct report *r, const struct report_case 
         return;
     }
     fprintf(out, ">\n");
-    put_failure(out, row);
+    if (row->verdict == VERDICT_KNOWN)
+        put_known(out, row);
+    else
+        put_failure(out, row);
     fprintf(out, "    </testcase>\n");
 }
 
@@ -112,13 +122,12 @@ static double time_of_case(const struct report_case *c) {
 }
 
 static void put_case(FILE *out, const struct report *r, const struct report_case *c) {
-    size_t bad = 0;
-    for (size_t i = 0; i < c->row_count; i++)
-        bad += c->row[i].verdict != VERDICT_PASS;
+    struct report_count n = report_tally(&(struct report){.cases = c, .case_count = 1});
     fprintf(out, "  <testsuite");
     put_attribute(out, "name", c->name);
-    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"%d\" time=\"%.3f\"",
-            c->row_count + c->skipped, bad, c->skipped, time_of_case(c));
+    fprintf(out, " tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"%zu\" time=\"%.3f\"",
+            c->row_count + c->skipped, n.fail + n.inconclusive, n.known + n.skipped,
+            time_of_case(c));
     if (r->started && *r->started)
         put_attribute(out, "timestamp", r->started);
     fprintf(out, ">\n");
@@ -145,9 +154,10 @@ enum status report_write_junit(const struct report *r, const char *path, struct 
         seconds += time_of_case(&r->cases[i]);
     fprintf(sheet.out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites");
     put_attribute(sheet.out, "name", r->suite);
-    fprintf(
-        sheet.out, " tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"%zu\" time=\"%.3f\">\n",
-        n.pass + n.fail + n.inconclusive + n.skipped, n.fail + n.inconclusive, n.skipped, seconds);
+    fprintf(sheet.out,
+            " tests=\"%zu\" failures=\"%zu\" errors=\"0\" skipped=\"%zu\" time=\"%.3f\">\n",
+            n.pass + n.fail + n.inconclusive + n.known + n.skipped, n.fail + n.inconclusive,
+            n.known + n.skipped, seconds);
     for (size_t i = 0; i < r->case_count; i++)
         put_case(sheet.out, r, &r->cases[i]);
     fprintf(sheet.out, "</testsuites>\n");

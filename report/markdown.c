@@ -14,7 +14,8 @@
 enum { DETAIL_LIMIT = 600 * 1000, SIZE_LIMIT = 980 * 1000, ONE_ROW_LIMIT = 60 * 1000 };
 
 static const char *symbol(enum verdict v) {
-    return v == VERDICT_PASS ? "✓ pass" : v == VERDICT_FAIL ? "✗ **FAIL**" : "? **inconclusive**";
+    static const char *const text[] = {"✓ pass", "✗ **FAIL**", "? **inconclusive**", "≠ known"};
+    return text[v];
 }
 
 static void put_value(FILE *out, struct words value, const char *unit) {
@@ -45,7 +46,9 @@ static void put_log(FILE *out, const char *log) {
 }
 
 static void put_detail(FILE *out, const struct report_row *row) {
-    fprintf(out, "\n### %s ", row->verdict == VERDICT_FAIL ? "✗" : "?");
+    static const char *const sign[] = {"✓", "✗", "?", "≠"};
+    static const char *const said[] = {"passed", "failed", "inconclusive", "known"};
+    fprintf(out, "\n### %s ", sign[row->verdict]);
     escape_markdown(out, row->case_name);
     fprintf(out, ": ");
     escape_markdown(out, row->check);
@@ -54,7 +57,7 @@ static void put_detail(FILE *out, const struct report_row *row) {
         escape_markdown(out, row->point);
     }
     fprintf(out, "\n\n");
-    put_item(out, row->verdict == VERDICT_FAIL ? "failed" : "inconclusive", row->reason);
+    put_item(out, said[row->verdict], row->reason);
     fprintf(out, "- measured: ");
     put_value(out, words_measured(row->measured, row->uncertainty), row->unit);
     fprintf(out, "; expected: ");
@@ -149,8 +152,10 @@ static void put_head(FILE *out, const struct report *r) {
         fprintf(out, "; this is no validation of it.\n\n");
     }
     words_sentence(out, r);
-    fprintf(out, "\n\n| pass | fail | inconclusive | cases not run |\n|--:|--:|--:|--:|\n");
-    fprintf(out, "| %zu | %zu | %zu | %zu |\n", n.pass, n.fail, n.inconclusive, n.skipped);
+    fprintf(out, "\n\n| pass | fail | inconclusive | known | cases not run |\n"
+                 "|--:|--:|--:|--:|--:|\n");
+    fprintf(out, "| %zu | %zu | %zu | %zu | %zu |\n", n.pass, n.fail, n.inconclusive, n.known,
+            n.skipped);
     put_worst(out, r);
     for (size_t i = 0; i < r->case_count; i++) {
         if (!r->cases[i].skipped)
@@ -185,11 +190,11 @@ enum status report_write_markdown(const struct report *r, const char *path, stru
         return status;
     put_head(sheet.out, r);
     put_facts(sheet.out, r);
-    if (n.fail + n.inconclusive > 0) {
-        fprintf(sheet.out, "\n## Failed or undecided\n");
+    if (n.fail + n.inconclusive + n.known > 0) {
+        fprintf(sheet.out, "\n## Failed, undecided, or known to disagree\n");
         status = put_rows(sheet.out, r, true, DETAIL_LIMIT, put_detail, fault);
     }
-    if (!status && n.pass + n.fail + n.inconclusive > 0) {
+    if (!status && n.pass + n.fail + n.inconclusive + n.known > 0) {
         fprintf(sheet.out, "\n## All checks\n\n| verdict | case | check | point | measured | "
                            "accepted | margin used |\n|---|---|---|---|---|---|---|\n");
         status = put_rows(sheet.out, r, false, SIZE_LIMIT, put_compact, fault);

@@ -10,6 +10,8 @@ const char *verdict_name(enum verdict v) {
         return "pass";
     case VERDICT_FAIL:
         return "fail";
+    case VERDICT_KNOWN:
+        return "known";
     default:
         return "inconclusive";
     }
@@ -24,6 +26,7 @@ struct report_count report_tally(const struct report *r) {
             count.pass += c->row[k].verdict == VERDICT_PASS;
             count.fail += c->row[k].verdict == VERDICT_FAIL;
             count.inconclusive += c->row[k].verdict == VERDICT_INCONCLUSIVE;
+            count.known += c->row[k].verdict == VERDICT_KNOWN;
         }
     }
     return count;
@@ -33,7 +36,9 @@ enum verdict report_verdict(const struct report *r) {
     struct report_count count = report_tally(r);
     if (count.fail > 0)
         return VERDICT_FAIL;
-    return count.inconclusive > 0 || count.pass == 0 ? VERDICT_INCONCLUSIVE : VERDICT_PASS;
+    if (count.inconclusive == 0 && count.pass > 0)
+        return VERDICT_PASS;
+    return count.inconclusive == 0 && count.known > 0 ? VERDICT_KNOWN : VERDICT_INCONCLUSIVE;
 }
 
 /* a/b where b may be 0: nothing of nothing is nothing, something of nothing too much. */
@@ -66,9 +71,12 @@ double report_margin_used(const struct report_row *row) {
     return share(fabs(m - e), t);
 }
 
-/* Failed rows come before all others; a failed row without a number is the worst. */
+/* Failed rows come before all others; a failed row without a number is the worst. What is known
+ * to disagree tells nothing about the margins of the rest. */
 static double badness(const struct report_row *row) {
     double used = report_margin_used(row);
+    if (row->verdict == VERDICT_KNOWN)
+        return -2;
     if (isnan(used))
         return row->verdict == VERDICT_FAIL ? (double)INFINITY : -1;
     return used;

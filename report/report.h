@@ -14,7 +14,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum verdict { VERDICT_PASS, VERDICT_FAIL, VERDICT_INCONCLUSIVE };
+/* KNOWN: it fails, on evidence that was written down before; it decides nothing. */
+enum verdict { VERDICT_PASS, VERDICT_FAIL, VERDICT_INCONCLUSIVE, VERDICT_KNOWN };
 
 /* One check at one point. */
 struct report_row {
@@ -23,7 +24,7 @@ struct report_row {
     double expected, expected_uncertainty;
     double tolerance;       /* half width of what passes, in the unit of measured */
     const char *comparison; /* "within", "outside", "at most", "at least" */
-    const char *kind;       /* "round-off", "order", "model", "run" */
+    const char *kind;       /* "round-off", "order", "model", "regression", "run" */
     enum verdict verdict;
     const char *because;     /* why this expectation and tolerance */
     const char *reason;      /* of the verdict, one sentence with numbers */
@@ -134,16 +135,17 @@ struct report {
 };
 
 struct report_count {
-    size_t pass, fail, inconclusive, skipped;
+    size_t pass, fail, inconclusive, known, skipped;
 };
 struct report_count report_tally(const struct report *r);
-enum verdict report_verdict(const struct report *r); /* fail before inconclusive before pass */
+/* Fail before inconclusive before pass; known where there is nothing else. */
+enum verdict report_verdict(const struct report *r);
 /* Share of the tolerance that a row uses up: |measured-expected|/tolerance for "within", its
  * like for the one-sided comparisons (report.c); 1 is the limit, NaN where nothing was measured. */
 double report_margin_used(const struct report_row *row);
 /* The worst failed row, else the tightest other one: largest margin used; NULL if none. */
 const struct report_row *report_worst(const struct report *r);
-const char *verdict_name(enum verdict v); /* "pass", "fail", "inconclusive" */
+const char *verdict_name(enum verdict v); /* "pass", "fail", "inconclusive", "known" */
 
 /* Each writes its file whole or not at all. */
 enum status report_write_json(const struct report *r, const char *path, struct fault *fault);

@@ -155,13 +155,15 @@ struct words words_unit(const char *unit) {
 
 const char *words_headline(const struct report *r) {
     struct report_count n = report_tally(r);
-    if (n.pass + n.fail + n.inconclusive == 0)
+    if (n.pass + n.fail + n.inconclusive + n.known == 0)
         return "NOTHING JUDGED";
     switch (report_verdict(r)) {
     case VERDICT_PASS:
         return "PASS";
     case VERDICT_FAIL:
         return "FAIL";
+    case VERDICT_KNOWN:
+        return "ONLY KNOWN DISAGREEMENTS";
     default:
         return "INCONCLUSIVE";
     }
@@ -194,17 +196,21 @@ static void failing_sentence(FILE *out, const struct report *r, const struct rep
 
 void words_sentence(FILE *out, const struct report *r) {
     struct report_count n = report_tally(r);
-    size_t all = n.pass + n.fail + n.inconclusive, cases = cases_with(r, NULL);
+    size_t all = n.pass + n.fail + n.inconclusive + n.known, cases = cases_with(r, NULL);
     if (all == 0)
         fprintf(out, "No check was made");
     else if (n.fail > 0)
         failing_sentence(out, r, &n, all);
     else if (n.inconclusive > 0)
         fprintf(out, "No check fails, but %zu of %zu cannot be decided", n.inconclusive, all);
+    else if (n.known > 0)
+        fprintf(out, "%zu of %zu checks pass", n.pass, all);
     else if (all == 1)
         fprintf(out, "The only check passes");
     else
         fprintf(out, "All %zu checks of %zu case%s pass", all, cases, plural(cases));
+    if (n.known > 0)
+        fprintf(out, "; %zu disagree%s as known", n.known, n.known == 1 ? "s" : "");
     if (n.skipped > 0)
         fprintf(out, "; %zu case%s not run", n.skipped, n.skipped == 1 ? " was" : "s were");
     fprintf(out, ".");

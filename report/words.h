@@ -39,7 +39,7 @@ struct words words_unit(const char *unit);
 /* One sentence with the verdict and its counts. */
 void words_sentence(FILE *out, const struct report *r);
 
-/* "PASS", "FAIL", "INCONCLUSIVE", "NOTHING JUDGED" */
+/* "PASS", "FAIL", "INCONCLUSIVE", "ONLY KNOWN DISAGREEMENTS", "NOTHING JUDGED" */
 const char *words_headline(const struct report *r);
 
 #endif

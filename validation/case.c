@@ -25,7 +25,7 @@ const char *case_comparison_name(enum comparison c) {
 }
 
 const char *case_kind_name(enum check_kind k) {
-    static const char *const name[] = {"round-off", "order", "model"};
+    static const char *const name[] = {"round-off", "order", "model", "regression"};
     return name[k];
 }
 

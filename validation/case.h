@@ -126,7 +126,7 @@ struct case_amount { /* 0.02 or 3 % of |expected| */
 };
 
 enum comparison { COMPARE_WITHIN, COMPARE_OUTSIDE, COMPARE_AT_MOST, COMPARE_AT_LEAST };
-enum check_kind { KIND_ROUND_OFF, KIND_ORDER, KIND_MODEL };
+enum check_kind { KIND_ROUND_OFF, KIND_ORDER, KIND_MODEL, KIND_REGRESSION };
 
 struct case_check {
     const char *name, *because, *unit;

@@ -96,8 +96,8 @@ static void tell_text(FILE *out, const char *head, const char *text) {
 }
 
 static void tell_row(FILE *out, const struct report_row *r) {
-    fprintf(out, "  %-5s %s [%s]: ", r->verdict == VERDICT_FAIL ? "fail" : "open", r->check,
-            r->point);
+    static const char *const word[] = {"pass", "fail", "open", "known"};
+    fprintf(out, "  %-5s %s [%s]: ", word[r->verdict], r->check, r->point);
     if (isfinite(r->measured))
         fprintf(out, "measured %.6g", r->measured);
     if (isfinite(r->measured) && r->uncertainty > 0)
@@ -114,22 +114,23 @@ static void tell_row(FILE *out, const struct report_row *r) {
 }
 
 static enum verdict worse(enum verdict a, enum verdict b) {
-    if (a == VERDICT_FAIL || b == VERDICT_FAIL)
-        return VERDICT_FAIL;
-    return a == VERDICT_PASS ? b : a;
+    static const int rank[] = {
+        [VERDICT_PASS] = 0, [VERDICT_KNOWN] = 1, [VERDICT_INCONCLUSIVE] = 2, [VERDICT_FAIL] = 3};
+    return rank[a] >= rank[b] ? a : b;
 }
 
 static enum verdict tell_case(const struct desk *d, size_t index) {
-    static const char *const word[] = {"pass", "FAIL", "OPEN"};
+    static const char *const word[] = {"pass", "FAIL", "OPEN", "pass"};
     const struct rows *rows = d->rows[index];
     FILE *out = d->console->out;
-    size_t failed = 0, open = 0;
+    size_t failed = 0, open = 0, known = 0;
     double seconds = 0;
     enum verdict v = VERDICT_PASS;
     const struct plan_case *c = &d->plan->cases[index];
     for (size_t i = 0; i < rows->count; i++) {
         failed += rows->row[i].verdict == VERDICT_FAIL;
         open += rows->row[i].verdict == VERDICT_INCONCLUSIVE;
+        known += rows->row[i].verdict == VERDICT_KNOWN;
         v = worse(v, rows->row[i].verdict);
     }
     for (size_t p = 0; p < c->point_count; p++) {
@@ -145,6 +146,8 @@ static enum verdict tell_case(const struct desk *d, size_t index) {
         fprintf(out, ", %zu fail", failed);
     if (open > 0)
         fprintf(out, ", %zu inconclusive", open);
+    if (known > 0)
+        fprintf(out, ", %zu known", known);
     fprintf(out, "  (%.1f s of solver)\n", seconds);
     for (size_t i = 0; i < rows->count; i++) {
         if (rows->row[i].verdict != VERDICT_PASS)
@@ -191,17 +194,17 @@ static enum status write_all(const struct desk *d, const struct report *r, bool 
 }
 
 static void tell_last(const struct desk *d, const struct report *r, bool page) {
-    static const char *const word[] = {"PASS", "FAIL", "INCONCLUSIVE"};
+    static const char *const word[] = {"PASS", "FAIL", "INCONCLUSIVE", "KNOWN"};
     struct report_count n = report_tally(r);
     FILE *out = d->console->out;
     if (r->modified)
         fprintf(out, "MODIFIED (%s) ", r->modification);
     fprintf(out,
-            "%s: %zu checks: %zu pass, %zu fail, %zu inconclusive; %zu skipped; %s: "
+            "%s: %zu checks: %zu pass, %zu fail, %zu inconclusive, %zu known; %zu skipped; %s: "
             "%s/%s\n",
-            word[report_verdict(r)], n.pass + n.fail + n.inconclusive, n.pass, n.fail,
-            n.inconclusive, n.skipped, page ? "report" : "results", folder_path(d->execute->folder),
-            page ? "report/index.html" : "results.json");
+            word[report_verdict(r)], n.pass + n.fail + n.inconclusive + n.known, n.pass, n.fail,
+            n.inconclusive, n.known, n.skipped, page ? "report" : "results",
+            folder_path(d->execute->folder), page ? "report/index.html" : "results.json");
 }
 
 static int exit_code_of(const struct report *r) {

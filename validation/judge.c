@@ -1,5 +1,7 @@
 #include "validation/judge.h"
 
+#include "validation/power.h"
+
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdarg.h>
@@ -8,6 +10,8 @@
 static const double confidence = 0.95;
 /* A declared scatter is refuted when seeds scatter so much with this probability. */
 static const double refutation = 1e-5;
+/* Part of a regression check's alarm rate that goes to the scatter of its seeds. */
+static const double spread_part = 0.1;
 
 enum verdict judge_interval(enum comparison c, double d, double h, double tolerance) {
     double low = d - h, high = d + h;
@@ -186,12 +190,126 @@ static void judge_mean(const struct judge_question *q, struct judge_answer *out)
     say_interval(q, out, v);
 }
 
+/* -- against a stored ensemble ---------------------------------------------------- */
+
+double judge_share_of_spread(double alarm_rate, size_t seeds) {
+    return seeds < 2 ? 0 : spread_part * alarm_rate;
+}
+
+double judge_share_of_mean(double alarm_rate, size_t seeds) {
+    return alarm_rate - judge_share_of_spread(alarm_rate, seeds);
+}
+
+/* Why there is nothing to compare with, or NULL. */
+static const char *lack_of_ensemble(const struct judge_question *q) {
+    const struct judge_ensemble *e = &q->ensemble;
+    if (e->seeds < 2)
+        return "no stored ensemble";
+    if (!(isfinite(e->mean) && isfinite(e->deviation) && e->deviation > 0))
+        return "the stored ensemble has no scatter";
+    if (!(q->alarm_rate > 0 && q->alarm_rate < 1))
+        return "no share of the false alarms was given";
+    return NULL;
+}
+
+static const char *lack_of_pairs(const struct judge_question *q) {
+    for (size_t i = 0; i < q->count; i++) {
+        if (!isfinite(q->expected[i]))
+            return "no stored value of this seed";
+    }
+    return q->margin.given ? NULL : "no margin was given";
+}
+
+static bool has_reference(const struct judge_question *q, struct judge_answer *out) {
+    const char *why = q->no_reference;
+    if (why == NULL)
+        why = q->paired ? lack_of_pairs(q) : lack_of_ensemble(q);
+    if (why != NULL)
+        say(out, VERDICT_INCONCLUSIVE, "not compared: %s", why);
+    return why == NULL;
+}
+
+/* Standard deviation of the measured values; NaN of one. */
+static double spread_of(const double *x, size_t count) {
+    double mean = mean_of(x, count), squares = 0;
+    for (size_t i = 0; i < count; i++)
+        squares += (x[i] - mean) * (x[i] - mean);
+    return count < 2 ? NAN : sqrt(squares / (double)(count - 1));
+}
+
+/* Seeds that scatter too much, or not at all; true: nothing is wrong with them. */
+static bool spread_is_fair(const struct judge_question *q, struct judge_answer *out) {
+    const struct judge_ensemble *e = &q->ensemble;
+    double sd = spread_of(q->measured, q->count);
+    double share = judge_share_of_spread(q->alarm_rate, q->count);
+    if (q->count < 2)
+        return true;
+    double most =
+        e->deviation * sqrt(gsl_cdf_fdist_Qinv(share, (double)q->count - 1, (double)e->seeds - 1));
+    if (!(sd > 0))
+        say(out, VERDICT_INCONCLUSIVE, "%zu seeds agree to the last bit on %.6g: not independent",
+            q->count, out->measured);
+    else if (!(sd <= most))
+        say(out, VERDICT_FAIL,
+            "the seeds scatter by %.3g, more than %.3g; those of the reference by %.3g", sd, most,
+            e->deviation);
+    return sd > 0 && sd <= most;
+}
+
+static void judge_regression(const struct judge_question *q, struct judge_answer *out) {
+    const struct judge_ensemble *e = &q->ensemble;
+    double level = judge_share_of_mean(q->alarm_rate, q->count);
+    double scale = power_scale(e->deviation, q->count, e->seeds);
+    double quantile = power_quantile(level, (double)e->seeds - 1);
+    out->measured = mean_of(q->measured, q->count);
+    out->uncertainty = e->deviation / sqrt((double)q->count);
+    out->expected = e->mean;
+    out->expected_uncertainty = e->deviation / sqrt((double)e->seeds);
+    out->tolerance = quantile * scale;
+    out->interval = 0;
+    if (!spread_is_fair(q, out))
+        return;
+    double z = (out->measured - e->mean) / scale;
+    bool fair = fabs(z) <= quantile;
+    say(out, fair ? VERDICT_PASS : VERDICT_FAIL,
+        "%.6g %s within %.6g +- %.3g of %zu seeds (z = %.2f, limit %.2f)", out->measured,
+        fair ? "lies" : "does not lie", e->mean, out->tolerance, e->seeds, z, quantile);
+}
+
+double judge_detectable(const struct judge_question *q) {
+    const struct judge_ensemble *e = &q->ensemble;
+    if (q->kind != KIND_REGRESSION || (!q->paired && lack_of_ensemble(q) != NULL))
+        return NAN;
+    if (!q->paired)
+        return power_detectable(e->deviation, q->count, e->seeds,
+                                judge_share_of_mean(q->alarm_rate, q->count));
+    double widest = 0;
+    for (size_t i = 0; i < q->count; i++)
+        widest = fmax(widest, 2 * amount_of(&q->margin, q->expected[i]));
+    return lack_of_pairs(q) == NULL ? widest : NAN;
+}
+
+/* -- known disagreements ----------------------------------------------------------- */
+
+/* The verdict on finite values turned round. */
+static void turn_known(const struct judge_question *q, struct judge_answer *out) {
+    char reason[JUDGE_REASON_SIZE];
+    if (q->known_since == NULL || out->verdict == VERDICT_INCONCLUSIVE)
+        return;
+    snprintf(reason, sizeof reason, "%s", out->reason);
+    if (out->verdict == VERDICT_PASS)
+        say(out, VERDICT_FAIL, "agrees now, remove `known`: %s", reason);
+    else
+        say(out, VERDICT_KNOWN, "known since %s: %s", q->known_since, reason);
+}
+
 /* Values that cannot be judged: shown, never passed. */
 static bool is_complete(const struct judge_question *q, struct judge_answer *out) {
     size_t missing = 0, infinite = 0;
     for (size_t i = 0; i < q->count; i++) {
-        missing += isnan(q->measured[i]) || isnan(q->expected[i]);
-        infinite += isinf(q->measured[i]) || isinf(q->expected[i]);
+        double expected = q->kind == KIND_REGRESSION ? 0 : q->expected[i]; /* see has_reference */
+        missing += isnan(q->measured[i]) || isnan(expected);
+        infinite += isinf(q->measured[i]) || isinf(expected);
     }
     if (infinite > 0)
         say(out, VERDICT_FAIL, "an infinite value in %zu of %zu runs", infinite, q->count);
@@ -230,10 +348,19 @@ void judge_check(const struct judge_question *q, struct judge_answer *out) {
                                  .interval = NAN,
                                  .verdict = VERDICT_INCONCLUSIVE};
     bool declared_exact = q->scatter.given && !(q->scatter.value > 0);
-    if (!is_complete(q, out))
-        show_rest(q, out);
-    else if (q->kind == KIND_ROUND_OFF || (declared_exact && !q->fitted))
+    bool regression = q->kind == KIND_REGRESSION;
+    if (!is_complete(q, out)) {
+        if (!regression || q->paired)
+            show_rest(q, out);
+        return;
+    }
+    if (regression && !has_reference(q, out))
+        out->measured = mean_of(q->measured, q->count);
+    else if (regression && !q->paired)
+        judge_regression(q, out);
+    else if (regression || q->kind == KIND_ROUND_OFF || (declared_exact && !q->fitted))
         judge_each(q, out);
     else
         judge_mean(q, out);
+    turn_known(q, out);
 }

@@ -19,9 +19,23 @@
  * INCONCLUSIVE; so are seeds that agree to the last bit where scatter is
  * expected, for they are not independent.  An infinite value fails.
  *
+ * A regression check asks whether anything has changed since a stored ensemble
+ * of K seeds (mean mu, deviation s) was made.  It fails when
+ *
+ *     |m - mu| > t(K-1) s sqrt(1/n + 1/K)      nine tenths of the alarm rate
+ *     sd(m_i) > s sqrt(F(n-1, K-1))            a tenth of it, n >= 2
+ *
+ * so that seeds that part in both directions cannot cancel either; the run's own
+ * scatter never widens what is accepted.  A paired one judges every seed against
+ * the same seed of the reference, with its margin.
+ *
+ * A known disagreement turns FAIL into KNOWN, and PASS into FAIL: what agrees
+ * again is no longer known.  Infinite values stay failures.
+ *
  * Source:     Student, Biometrika 6, 1 (1908), for t(n-1).
- * Leaves out: budgets of false alarms, correlation between checks.
- * Checked by: tests/unit/test_judge.c, each comparison on both sides.
+ * Leaves out: correlation between checks, distributions that are not normal.
+ * Checked by: tests/unit/test_judge.c, each comparison on both sides;
+ *             tests/unit/test_judge_regression.c, the alarm rate by simulation.
  */
 #ifndef VALIDATION_JUDGE_H
 #define VALIDATION_JUDGE_H
@@ -29,20 +43,31 @@
 #include "report/report.h"
 #include "validation/case.h"
 
+/* What a run is compared with by a regression check. */
+struct judge_ensemble {
+    size_t seeds;           /* 0: there is none */
+    double mean, deviation; /* deviation from seed to seed */
+};
+
 struct judge_question {
     enum comparison comparison;
     enum check_kind kind;
     struct case_amount margin, scatter;
     size_t count;                /* samples asked for */
     const double *measured;      /* measured[0 .. count-1]; NaN: missing */
-    const double *expected;      /* expected[0 .. count-1] */
+    const double *expected;      /* expected[0 .. count-1]; NULL where an ensemble judges */
     double expected_uncertainty; /* standard uncertainty of the expectation itself */
     bool fitted;                 /* one sample, the result of a fit */
     double fit_uncertainty;      /* its standard uncertainty; NaN: unknown */
     const char *missing;         /* why a sample is NaN, or NULL */
+    bool paired;                 /* regression, seed by seed: expected[] are the reference's */
+    struct judge_ensemble ensemble;
+    double alarm_rate;        /* of a regression check: its share of the budget */
+    const char *no_reference; /* why there is no ensemble or no pair, or NULL */
+    const char *known_since;  /* NULL: no disagreement is known */
 };
 
-enum { JUDGE_REASON_SIZE = 320 };
+enum { JUDGE_REASON_SIZE = 400 };
 
 struct judge_answer {
     enum verdict verdict;
@@ -52,6 +77,15 @@ struct judge_answer {
 };
 
 void judge_check(const struct judge_question *q, struct judge_answer *out);
+
+/* Smallest change that a regression check sees with 95 %, in the unit of its values (power.h);
+ * of pairs, twice the margin: of that round-off may use up one, and a change as large is seen
+ * whatever round-off does.  NaN for other kinds and without a usable reference. */
+double judge_detectable(const struct judge_question *q);
+
+/* Alarm rate of each of a regression check's two questions; the spread is asked of two seeds. */
+double judge_share_of_mean(double alarm_rate, size_t seeds);
+double judge_share_of_spread(double alarm_rate, size_t seeds);
 
 /* What d +- h says about the accepted set: the heart of the above. */
 enum verdict judge_interval(enum comparison c, double d, double h, double tolerance);

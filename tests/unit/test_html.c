@@ -32,6 +32,21 @@ static size_t collect_ids(const char *text, char **ids, size_t room) {
     return count;
 }
 
+START_TEST(a_known_disagreement_has_a_colour_and_a_count_of_its_own) {
+    struct sample s;
+    sample_fill(&s);
+    sample_know(&s);
+    const char *folder = unit_folder();
+    char *text = written(&s.report, folder);
+    has(text, "<li class=\"known\"><strong>1</strong> known disagreement</li>");
+    has(text, "<span class=\"verdict known\">");
+    has(text, "<div class=\"trouble known\">");
+    has(text, ".verdict.known{color:var(--known)");
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
 START_TEST(ids_are_unique_in_a_page_of_two_figures) {
     static char *ids[1000];
     struct sample s;
@@ -188,7 +203,8 @@ START_TEST(a_folder_that_cannot_be_made_is_named) {
 END_TEST
 
 int main(void) {
-    const TTest *const tests[] = {sequences_stand_in_the_page_and_players_beside_it,
+    const TTest *const tests[] = {a_known_disagreement_has_a_colour_and_a_count_of_its_own,
+                                  sequences_stand_in_the_page_and_players_beside_it,
                                   ids_are_unique_in_a_page_of_two_figures,
                                   foreign_names_are_text,
                                   the_first_screen_answers,

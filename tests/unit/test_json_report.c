@@ -87,6 +87,18 @@ START_TEST(a_modified_solver_is_named) {
 }
 END_TEST
 
+START_TEST(a_known_disagreement_is_counted_and_dated) {
+    struct sample s;
+    sample_fill(&s);
+    sample_know(&s);
+    char *text = written(&s.report);
+    ck_assert_ptr_nonnull(strstr(text, "\"known\": 1"));
+    ck_assert_ptr_nonnull(strstr(text, "\"verdict\": \"known\""));
+    ck_assert_ptr_nonnull(strstr(text, "\"since\": \"2026-11-20\""));
+    free(text);
+}
+END_TEST
+
 START_TEST(a_folder_that_is_none_is_a_fault) {
     struct sample s;
     struct fault fault = FAULT_NONE;
@@ -98,7 +110,8 @@ END_TEST
 
 int main(void) {
     const TTest *const tests[] = {
-        every_row_has_every_member, what_is_no_number_is_null_and_explained,
-        a_modified_solver_is_named, a_folder_that_is_none_is_a_fault, NULL};
+        every_row_has_every_member,       what_is_no_number_is_null_and_explained,
+        a_modified_solver_is_named,       a_known_disagreement_is_counted_and_dated,
+        a_folder_that_is_none_is_a_fault, NULL};
     return unit_run("json_report", tests);
 }

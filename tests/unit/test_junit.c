@@ -85,10 +85,23 @@ START_TEST(a_time_that_is_none_is_zero) {
 }
 END_TEST
 
+START_TEST(a_known_disagreement_is_skipped_with_its_reason) {
+    struct sample s;
+    sample_fill(&s);
+    sample_know(&s);
+    char *text = written(&s.report);
+    has(text, "tests=\"6\" failures=\"2\" errors=\"0\" skipped=\"2\" time=\"6.850\"");
+    has(text, "tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"1\"");
+    has(text, "<skipped message=\"known since 2026-11-20: 1.3137 lies above 1.2463\"/>");
+    free(text);
+}
+END_TEST
+
 int main(void) {
     const TTest *const tests[] = {counts_names_and_times,
                                   two_rows_of_one_name_are_told_apart,
                                   undecided_is_a_failure_of_its_own_type,
+                                  a_known_disagreement_is_skipped_with_its_reason,
                                   foreign_text_stays_text,
                                   a_time_that_is_none_is_zero,
                                   NULL};

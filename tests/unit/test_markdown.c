@@ -24,7 +24,7 @@ START_TEST(the_verdict_comes_first_and_failures_in_full) {
     char *text = written(&s.report, &length);
     ck_assert_int_eq(strncmp(text, "# FAIL: ", 8), 0);
     has(text, "2 of 5 checks fail");
-    has(text, "| 2 | 2 | 1 | 1 |");
+    has(text, "| 2 | 2 | 1 | 0 | 1 |");
     has(text, "- failed: 1.3137 lies above 1.2463");
     has(text, "- inconclusive: the interval crosses 1.2463");
     has(text, "Not run: graingas/fluidization: no time \\| today");
@@ -79,10 +79,26 @@ START_TEST(a_modified_solver_is_named_first) {
 }
 END_TEST
 
+START_TEST(a_known_disagreement_has_a_count_and_a_sign_of_its_own) {
+    struct sample s;
+    size_t length;
+    sample_fill(&s);
+    sample_know(&s);
+    char *text = written(&s.report, &length);
+    has(text, "| 2 | 1 | 1 | 1 | 1 |");
+    has(text, "### ≠ graingas/sedimentation: own law");
+    has(text, "- known: known since 2026-11-20: 1.3137 lies above 1.2463");
+    has(text, "| ≠ known | graingas/sedimentation | own law |");
+    free(text);
+}
+END_TEST
+
 int main(void) {
-    const TTest *const tests[] = {the_verdict_comes_first_and_failures_in_full,
+    const TTest *const tests[] = {a_known_disagreement_has_a_count_and_a_sign_of_its_own,
+                                  the_verdict_comes_first_and_failures_in_full,
                                   a_name_with_markup_stays_in_its_cell,
                                   thousands_of_rows_stay_below_a_megabyte_and_are_counted,
-                                  a_modified_solver_is_named_first, NULL};
+                                  a_modified_solver_is_named_first,
+                                  NULL};
     return unit_run("markdown", tests);
 }

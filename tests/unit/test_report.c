@@ -34,6 +34,36 @@ START_TEST(rows_are_counted_and_a_failure_decides) {
 }
 END_TEST
 
+static struct words sentence_of(const struct report *r) {
+    struct words w = {""};
+    FILE *out = fmemopen(w.text, sizeof w.text, "w");
+    words_sentence(out, r);
+    fclose(out);
+    return w;
+}
+
+START_TEST(a_known_disagreement_is_counted_and_decides_nothing) {
+    struct sample s;
+    sample_fill(&s);
+    sample_know(&s);
+    s.second[0].verdict = s.first[2].verdict = VERDICT_PASS;
+    struct report_count n = report_tally(&s.report);
+    ck_assert(n.known == 1 && n.pass == 4 && n.fail == 0 && n.inconclusive == 0);
+    ck_assert_int_eq(report_verdict(&s.report), VERDICT_PASS);
+    ck_assert_str_eq(sentence_of(&s.report).text,
+                     "4 of 5 checks pass; 1 disagrees as known; 1 case was not run.");
+    ck_assert_ptr_ne(report_worst(&s.report), &s.first[1]); /* though it uses 286 % */
+    s.first[2].verdict = VERDICT_INCONCLUSIVE;
+    ck_assert_int_eq(report_verdict(&s.report), VERDICT_INCONCLUSIVE);
+    s.first[2].verdict = VERDICT_FAIL;
+    ck_assert_int_eq(report_verdict(&s.report), VERDICT_FAIL);
+    s.cases[0].row = &s.first[1];
+    s.cases[0].row_count = s.report.case_count = 1;
+    ck_assert_int_eq(report_verdict(&s.report), VERDICT_KNOWN);
+    ck_assert_str_eq(words_headline(&s.report), "ONLY KNOWN DISAGREEMENTS");
+}
+END_TEST
+
 START_TEST(nothing_judged_is_no_pass) {
     struct sample s;
     sample_fill(&s);
@@ -129,6 +159,7 @@ END_TEST
 
 int main(void) {
     const TTest *const tests[] = {rows_are_counted_and_a_failure_decides,
+                                  a_known_disagreement_is_counted_and_decides_nothing,
                                   nothing_judged_is_no_pass,
                                   margin_is_the_share_of_what_is_allowed,
                                   without_tolerance_only_equality_is_within,
