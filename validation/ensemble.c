@@ -1,5 +1,5 @@
 /* ensemble.c -- the list of ensemble fits, and the plainest of them. */
-#include "validation/ensemble.h"
+#include "validation/ensembles.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -87,7 +87,7 @@ static const struct ensemble PEAK_OF_MEAN = {
 
 /* -- the list ------------------------------------------------------------------- */
 
-static const struct ensemble *const ENSEMBLES[] = {&PEAK_OF_MEAN};
+static const struct ensemble *const ENSEMBLES[] = {&PEAK_OF_MEAN, &ensemble_relaxation};
 enum { ENSEMBLE_COUNT = sizeof ENSEMBLES / sizeof *ENSEMBLES };
 
 const struct ensemble *ensemble_find(const char *name) {

@@ -18,13 +18,15 @@ static const struct prediction *const PREDICTIONS[] = {
     &PREDICT_SUSPENSION[5], &PREDICT_SUSPENSION[6],  &PREDICT_SUSPENSION[7], &PREDICT_SUSPENSION[8],
     &PREDICT_SUSPENSION[9], &PREDICT_SUSPENSION[10], &PREDICT_INTERFACE[0],  &PREDICT_INTERFACE[1],
     &PREDICT_INTERFACE[2],  &PREDICT_INTERFACE[3],   &PREDICT_INTERFACE[4],  &PREDICT_INTERFACE[5],
-    &PREDICT_INTERFACE[6],  &PREDICT_INTERFACE[7],
+    &PREDICT_INTERFACE[6],  &PREDICT_INTERFACE[7],   &PREDICT_STEP[0],       &PREDICT_STEP[1],
+    &PREDICT_STEP[2],       &PREDICT_STEP[3],        &PREDICT_STEP[4],       &PREDICT_STEP[5],
+    &PREDICT_STEP[6],       &PREDICT_STEP[7],        &PREDICT_STEP[8],       &PREDICT_STEP[9],
 };
 enum { PREDICTION_COUNT = sizeof PREDICTIONS / sizeof *PREDICTIONS };
 _Static_assert(PREDICTION_COUNT == PREDICT_SETTLING_COUNT + PREDICT_GAS_COUNT +
                                        PREDICT_DISCS_COUNT + PREDICT_BED_COUNT +
                                        PREDICT_SPHERES_COUNT + PREDICT_SUSPENSION_COUNT +
-                                       PREDICT_INTERFACE_COUNT,
+                                       PREDICT_INTERFACE_COUNT + PREDICT_STEP_COUNT,
                "every prediction of every table stands in the list");
 
 const struct prediction *prediction_find(const char *name) {

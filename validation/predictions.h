@@ -11,7 +11,8 @@ enum {
     PREDICT_BED_COUNT = 7,
     PREDICT_SPHERES_COUNT = 7,
     PREDICT_SUSPENSION_COUNT = 11,
-    PREDICT_INTERFACE_COUNT = 8
+    PREDICT_INTERFACE_COUNT = 8,
+    PREDICT_STEP_COUNT = 10
 };
 
 extern const struct prediction PREDICT_SETTLING[PREDICT_SETTLING_COUNT]; /* predict_settling.c */
@@ -22,5 +23,6 @@ extern const struct prediction PREDICT_SPHERES[PREDICT_SPHERES_COUNT];   /* pred
 extern const struct prediction
     PREDICT_SUSPENSION[PREDICT_SUSPENSION_COUNT]; /* predict_suspension.c */
 extern const struct prediction PREDICT_INTERFACE[PREDICT_INTERFACE_COUNT]; /* predict_interface.c */
+extern const struct prediction PREDICT_STEP[PREDICT_STEP_COUNT];           /* predict_step.c */
 
 #endif

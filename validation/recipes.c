@@ -49,6 +49,8 @@ static const struct recipe *const RECIPES[] = {
     &recipe_bed_temperature,
     &recipe_bed_velocities,
     &recipe_bed_diffusion,
+    &recipe_bed_step,
+    &recipe_bed_relaxation,
 };
 
 const struct recipe *recipe_find(const char *name) {
