@@ -8,6 +8,7 @@
  *     equilibrium   sqrt(S/n): what an undriven fluid of spheres has in slices of n spheres,
  *                   S = 1/(d(phi Z)/d phi), Carnahan & Starling
  *     excess        contrast over equilibrium
+ *     slope         of ln contrast over height: straight line through the heights looked at
  *     stripes       dense regions one above the other: delta rises above +half of its root mean
  *                   square, then falls below -half; mean over samples
  *     speed         shift s > or < 0 that makes <delta(z, t) delta(z + s, t + tau)> largest, over
@@ -24,6 +25,7 @@
 #include "validation/recipes.h"
 #include "validation/sphere_laws.h"
 
+#include <gsl/gsl_fit.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -33,6 +35,7 @@ enum {
     LOWER,
     UPPER,
     RISE,
+    SLOPE,
     EQUILIBRIUM,
     EXCESS,
     STRIPES,
@@ -159,19 +162,26 @@ static void conclude(const struct stripes *p, const struct observe_spheres *b, d
     out->value[DENSEST] = densest;
 }
 
-/* The last sample's profile, and the contrast over height. */
+/* Contrast over height and its slope; the last sample's profile. */
 static enum status add_curves(const struct stripes *p, double radius_m, struct measurement *out,
                               struct fault *fault) {
-    double *z = malloc(2 * p->rows * sizeof *z), *y = z ? z + p->rows : NULL;
+    double *z = malloc(3 * p->rows * sizeof *z);
     if (!z)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu heights", p->rows);
+    double *y = z + p->rows, *logarithm = y + p->rows;
+    bool still = false;
     for (size_t r = 0; r < p->rows; r++) {
-        double sum = 0;
-        for (size_t t = 0; t < p->samples; t++)
-            sum += p->delta[t * p->rows + r] * p->delta[t * p->rows + r];
         z[r] = (p->bottom_m + (double)r * p->slab_m) / radius_m;
-        y[r] = sqrt(sum / (double)p->samples) / p->fraction;
+        y[r] = deviation(p, r, r + 1) / p->fraction;
+        logarithm[r] = log(y[r]);
+        still = still || !(y[r] > 0);
     }
+    double start, c00, c01, c11, sum;
+    if (still)
+        observe_none(out, SLOPE, "a height where nothing changes");
+    else
+        gsl_fit_linear(z, 1, logarithm, 1, p->rows, &start, &out->value[SLOPE], &c00, &c01, &c11,
+                       &sum);
     enum status status = measurement_add_curve(out, "contrast", "contrast", z, y, p->rows, fault);
     if (!status)
         status = measurement_add_curve(out, "profile", "packing fraction", z,
@@ -279,6 +289,7 @@ const struct recipe recipe_bed_stripes = {
                {"lower", "1", "the same in the lower half"},
                {"upper", "1", "the same in the upper half"},
                {"rise", "1", "upper over lower"},
+               {"slope", "1/R", "of ln contrast over height"},
                {"equilibrium", "1", "contrast of a fluid at rest"},
                {"excess", "1", "contrast over that"},
                {"stripes", "1", "dense regions one above the other, mean over samples"},

@@ -95,6 +95,15 @@ static double fastest_speed(const double *in) {
     return -cimag(spheres_wave_root(&w)) * w.wavelength_m / (2 * M_PI);
 }
 
+/* Growth per height (1/R) of a train of waves that a floor lets in: growth over phase speed of
+ * the wave that grows fastest (Gaster, J. Fluid Mech. 14, 222 (1962)). */
+static double growth_with_height(const double *in) {
+    struct spheres_wave w = wave_of(in, NAN);
+    w.wavelength_m = spheres_fastest_wave(&w);
+    double complex s = spheres_wave_root(&w);
+    return -creal(s) / cimag(s) * 2 * M_PI / w.wavelength_m * in[8];
+}
+
 #define DRAG  "drag_per_s", "phibar", "exponent"
 #define KICKS DRAG, "kick_rate_per_s", "kick_variance_m2_per_s2"
 #define DRIVE DRAG, "gravity_m_per_s2", "density_contrast", "drive_scale", "packing_fraction"
@@ -168,4 +177,10 @@ const struct prediction PREDICT_SUSPENSION[PREDICT_SUSPENSION_COUNT] = {
      .source = "Fiege & Zippelius, Eq. 9, linearised; Enskog's viscosity",
      .input = {STATE, NULL},
      .at = fastest_speed},
+    {.name = "growth-with-height",
+     .title = "Growth per height of the waves of density that grow fastest",
+     .unit = "1/R",
+     .source = "Gaster, J. Fluid Mech. 14, 222 (1962); docs/theory.md S8",
+     .input = {STATE, NULL},
+     .at = growth_with_height},
 };

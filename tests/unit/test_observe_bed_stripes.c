@@ -71,6 +71,15 @@ START_TEST(a_wave_that_grows_with_height_rises) {
     struct measurement m = travelling(173, 0.0013);
     /* Mean squares of .11 + .0013 z over 12 to 76 R and 76 to 140 R: .1682 and .2510. */
     ck_assert_double_eq_tol(got(&m, "rise"), 0.2510 / 0.1682, 0.03);
+    /* ln (.11 + .0013 z) by least squares over 12 to 140 R, from its integrals. */
+    double sum = 0, moment = 0, square = 0;
+    for (double z = 12.05; z < 140; z += 0.1) {
+        sum += log(0.11 + 0.0013 * z) * (z - 76);
+        moment += z - 76;
+        square += (z - 76) * (z - 76);
+    }
+    ck_assert_double_eq_tol(moment, 0, 1e-6);
+    ck_assert_double_eq_tol(got(&m, "slope"), sum / square, 0.02 * sum / square);
     ck_assert_double_gt(got(&m, "upper"), got(&m, "contrast"));
     ck_assert_double_lt(got(&m, "lower"), got(&m, "contrast"));
     measurement_free(&m);

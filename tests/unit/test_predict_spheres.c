@@ -93,6 +93,8 @@ START_TEST(waves_grow_where_the_kinematic_wave_outruns_sound) {
     beside[11] = peak;
     double most = at("density-wave-growth", beside);
     ck_assert_double_eq_tol(at("fastest-wave-speed", in), at("density-wave-speed", beside), 1e-12);
+    double rise = most / at("density-wave-speed", beside) * in[8];
+    ck_assert_double_eq_tol(at("growth-with-height", in), rise, 1e-12);
     for (int side = -1; side <= 1; side += 2) {
         beside[11] = peak * (1 + 0.03 * side);
         ck_assert_double_lt(at("density-wave-growth", beside), most);
