@@ -172,6 +172,14 @@ enum status desk_judge(struct desk *d, enum verdict *worst, struct fault *fault)
     return STATUS_OK;
 }
 
+const struct measured_case *desk_measured(const struct desk *d, size_t i) {
+    return d->measured[i];
+}
+
+const struct rows *desk_rows(const struct desk *d, size_t i) {
+    return d->rows[i];
+}
+
 /* -- filing ----------------------------------------------------------------------- */
 
 static enum status write_all(const struct desk *d, const struct report *r, bool page,

@@ -21,6 +21,10 @@ void desk_free(struct desk *d); /* NULL is allowed */
  * *worst is the worst verdict so far. */
 enum status desk_judge(struct desk *d, enum verdict *worst, struct fault *fault);
 
+/* Of case i of the plan: NULL where it is not judged (yet).  The desk's, until it is freed. */
+const struct measured_case *desk_measured(const struct desk *d, size_t i);
+const struct rows *desk_rows(const struct desk *d, size_t i);
+
 /* Write results.json, junit.xml, summary.md and, with `page`, report/index.html;
  * print the last line; *exit_code says 0, 1 or 3. */
 enum status desk_file(struct desk *d, const struct folder_record *record, bool page, int *exit_code,

@@ -140,6 +140,10 @@ const char *folder_key(const struct folder *f, struct arena *a, const struct pla
     return arena_text(a, "%s/h5/%s.key", f->path, run->name);
 }
 
+const char *folder_run_record(const struct folder *f, struct arena *a, const struct plan_run *run) {
+    return arena_text(a, "%s/h5/%s.run.json", f->path, run->name);
+}
+
 const char *folder_log(const struct folder *f, struct arena *a, const struct plan_run *run) {
     return arena_text(a, "%s/logs/%s.log", f->path, run->name);
 }

@@ -54,6 +54,7 @@ void folder_record_free(struct folder_record *r);
 const char *folder_run_file(const struct folder *f, struct arena *a, const struct plan_run *run);
 const char *folder_result(const struct folder *f, struct arena *a, const struct plan_run *run);
 const char *folder_key(const struct folder *f, struct arena *a, const struct plan_run *run);
+const char *folder_run_record(const struct folder *f, struct arena *a, const struct plan_run *run);
 const char *folder_log(const struct folder *f, struct arena *a, const struct plan_run *run);
 
 /* Remove what a run has left: result, key, record, unfinished files. */
