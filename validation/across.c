@@ -1,10 +1,10 @@
 /* across.c -- see across.h.
  *
- * All fits are straight lines by GSL.  Points of known uncertainty are weighted
- * with its inverse square and the fit's uncertainty follows from theirs; where
- * any uncertainty is unknown or zero, all points weigh the same and the
- * uncertainty follows from the scatter about the line (none with two points:
- * then it is 0 when all points are exact, else unknown).
+ * All fits but `ends` and `spread` are straight lines by GSL.  Points of known uncertainty are
+ * weighted with its inverse square and the fit's uncertainty follows from theirs; where any
+ * uncertainty is unknown or zero, all points weigh the same and the uncertainty follows from the
+ * scatter about the line (none with two points: then it is 0 when all points are exact, else
+ * unknown).
  *
  * Source:     GSL, gsl_fit_wlinear and gsl_fit_linear.
  * Leaves out: errors of the swept parameter: it is exact.
@@ -122,6 +122,37 @@ static enum status fit_extrapolation(const struct across_point *point, size_t co
     return STATUS_OK;
 }
 
+/* y = value + slope (x - mean x): the value in the middle does not depend on the slope. */
+static enum status fit_slope(const struct across_point *point, size_t count, double *value,
+                             double *uncertainty, struct fault *fault) {
+    struct line l;
+    double chi = 0, sum = 0, weights = 0;
+    enum status status = fit_line(point, count, false, &l, fault);
+    if (status)
+        return status;
+    bool weighted = all_uncertain(point, count);
+    for (size_t i = 0; i < count; i++) {
+        double u = weighted ? point[i].uncertainty : 1;
+        double off = point[i].y - l.value - l.slope * point[i].x;
+        chi += off * off / (u * u);
+        sum += point[i].x / (u * u);
+        weights += 1 / (u * u);
+    }
+    double per = count > 2 ? chi / (double)(count - 2) : 0;
+    double wider = weighted && per > 1 ? sqrt(per) : 1;
+    double x = sum / weights, middle = l.value + l.slope * x;
+    double variance = l.value_variance + x * x * l.slope_variance + 2 * x * l.covariance;
+    value[0] = l.slope;
+    uncertainty[0] = wider * sqrt(l.slope_variance);
+    value[1] = l.slope / middle; /* the two do not depend on each other */
+    uncertainty[1] =
+        hypot(uncertainty[0], value[1] * wider * sqrt(fmax(variance, 0))) / fabs(middle);
+    return middle == 0 ? fault_set(fault, STATUS_BAD_INPUT,
+                                   "a line through 0 in its middle has "
+                                   "no relative slope")
+                       : STATUS_OK;
+}
+
 static enum status fit_zero(const struct across_point *point, size_t count, double *value,
                             double *uncertainty, struct fault *fault) {
     struct line l;
@@ -155,6 +186,28 @@ static enum status fit_ends(const struct across_point *point, size_t count, doub
     return STATUS_OK;
 }
 
+/* -- largest and smallest ---------------------------------------------------- */
+
+static enum status fit_spread(const struct across_point *point, size_t count, double *value,
+                              double *uncertainty, struct fault *fault) {
+    const struct across_point *low = &point[0], *high = &point[0];
+    double sum = 0, variance = 0;
+    for (size_t i = 0; i < count; i++) {
+        low = point[i].y < low->y ? &point[i] : low;
+        high = point[i].y > high->y ? &point[i] : high;
+        sum += point[i].y;
+        variance += point[i].uncertainty * point[i].uncertainty;
+    }
+    if (!(low->y > 0))
+        return fault_set(fault, STATUS_BAD_INPUT, "no ratio of the largest to %g at %g", low->y,
+                         low->x);
+    value[0] = high->y / low->y;
+    uncertainty[0] = hypot(high->uncertainty, value[0] * low->uncertainty) / low->y;
+    value[1] = sum / (double)count;
+    uncertainty[1] = sqrt(variance) / (double)count;
+    return STATUS_OK;
+}
+
 static const struct across ORDER = {
     .name = "order",
     .title = "Order of accuracy: error ~ x^order, x a step",
@@ -182,6 +235,16 @@ static const struct across EXTRAPOLATE_LINEAR = {
     .fit = fit_extrapolation,
 };
 
+static const struct across SLOPE = {
+    .name = "slope",
+    .title = "Slope of a straight line, and slope over its value in the middle",
+    .source = "weighted least squares of y on x; points that scatter more than their "
+              "uncertainties say widen it by sqrt(chi^2/(n - 2))",
+    .min_points = 2,
+    .output = {"slope", "relative", NULL},
+    .fit = fit_slope,
+};
+
 static const struct across ZERO = {
     .name = "zero",
     .title = "Where a straight line crosses 0",
@@ -200,8 +263,17 @@ static const struct across ENDS = {
     .fit = fit_ends,
 };
 
-static const struct across *const ALL[] = {&ORDER, &ORDER_OF_REFINEMENT, &EXTRAPOLATE_LINEAR, &ZERO,
-                                           &ENDS};
+static const struct across SPREAD = {
+    .name = "spread",
+    .title = "Largest value over the smallest, at any x, and the mean",
+    .source = "ratio; with scatter it lies above that of the true values",
+    .min_points = 2,
+    .output = {"ratio", "mean", NULL},
+    .fit = fit_spread,
+};
+
+static const struct across *const ALL[] = {
+    &ORDER, &ORDER_OF_REFINEMENT, &EXTRAPOLATE_LINEAR, &SLOPE, &ZERO, &ENDS, &SPREAD};
 
 const struct across *across_find(const char *name) {
     for (size_t i = 0; i < sizeof ALL / sizeof *ALL; i++)

@@ -243,6 +243,13 @@ const char *case_point_text(struct arena *a, const struct case_tier *t,
     return text != NULL && *text == '\0' ? "single" : text;
 }
 
+enum status case_value_real(const struct yaml_node *n, double *out, struct fault *fault) {
+    if (n->kind == YAML_LIST && n->count != 1)
+        return yaml_fault(n, fault, "%s: a list of %zu, where one number is needed",
+                          n->key == NULL ? "value" : n->key, n->count);
+    return yaml_real(n->kind == YAML_LIST ? &n->child[0] : n, out, fault);
+}
+
 size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count) {
     for (size_t i = 0; i < s->rule_count; i++) {
         if (case_filter_takes(&s->rule[i].points, p, count))

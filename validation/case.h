@@ -16,6 +16,7 @@
 #include "common/yaml.h"
 #include "validation/across.h"
 #include "validation/arena.h"
+#include "validation/ensemble.h"
 #include "validation/prediction.h"
 #include "validation/readings.h"
 #include "validation/recipe.h"
@@ -79,8 +80,10 @@ struct case_number {
 
 struct case_across {
     const char *name;
-    const struct across *fit;
-    struct case_number of; /* an observable's output */
+    const struct across *fit;        /* over a sweep, or NULL */
+    const struct ensemble *ensemble; /* over the seeds of each point (`along: seeds`), or NULL */
+    struct case_number of; /* an output of an observable or of an ensemble fit; for the latter
+                            * itself an observable, output 0 */
     const char *along;     /* a swept parameter, or one that every label of an axis sets */
     struct case_filter points;
     bool exact; /* `exact: true`: values of single runs carry no scatter */
@@ -261,6 +264,9 @@ const char *case_value_text(struct arena *a, const struct yaml_node *value);
 /* Expected value of a curve at x: straight between its points, and beyond its ends by
  * a quarter of the end's interval at the most; NaN farther out. */
 double case_curve_at(const struct case_expect *e, double x);
+
+/* A number, or a list of exactly one; else the fault says what it is. */
+enum status case_value_real(const struct yaml_node *n, double *out, struct fault *fault);
 
 /* How many seeds a point gets; 0 when no rule matches it. */
 size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count);

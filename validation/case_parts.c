@@ -117,6 +117,12 @@ static bool number_of_across(struct case_reader *r, const struct yaml_node *n, s
     size_t count = 0;
     *out = (struct case_number){.across = true, .index = index};
     r->across_used[index] = true;
+    const char *names[ENSEMBLE_MAX_OUTPUTS];
+    if (a->ensemble != NULL) {
+        for (; count < ENSEMBLE_MAX_OUTPUTS && a->ensemble->output[count].name != NULL; count++)
+            names[count] = a->ensemble->output[count].name;
+        return number_of(r, n, a->name, output, names, count, out);
+    }
     if (a->fit == NULL)
         return false;
     while (count < ACROSS_MAX_OUTPUTS && a->fit->output[count] != NULL)
@@ -149,8 +155,9 @@ bool case_read_number(struct case_reader *r, const struct yaml_node *n, struct c
 }
 
 const char *case_read_unit(const struct case_reader *r, const struct case_number *n) {
+    const struct ensemble *e = n->across ? r->c->across[n->index].ensemble : NULL;
     if (n->across)
-        return "1"; /* orders and exponents; a fit does not tell units */
+        return e == NULL ? "1" : e->output[n->output].unit; /* a fit over a sweep tells no units */
     const struct recipe *recipe = r->c->observable[n->index].recipe;
     return recipe == NULL ? "1" : recipe->output[n->output].unit;
 }
@@ -159,12 +166,98 @@ static void find_fit(struct case_reader *r, const struct yaml_node *n, struct ca
     a->fit = across_find(n->text);
     if (a->fit != NULL)
         return;
+    if (ensemble_find(n->text) != NULL) {
+        case_read_fault(r, n, "fit: %s is a fit over seeds: along: seeds", n->text);
+        return;
+    }
     size_t count;
     const struct across *const *all = across_all(&count);
     const char *name[MAX_NAMES];
     for (size_t i = 0; i < count && i < MAX_NAMES; i++)
         name[i] = all[i]->name;
     case_read_unknown(r, n, "fit", n->text, name, count < MAX_NAMES ? count : MAX_NAMES);
+}
+
+/* -- fits over seeds ---------------------------------------------------------------- */
+
+static void find_ensemble(struct case_reader *r, const struct yaml_node *n, struct case_across *a) {
+    a->ensemble = ensemble_find(n->text);
+    if (a->ensemble != NULL)
+        return;
+    if (across_find(n->text) != NULL) {
+        case_read_fault(r, n, "fit: %s goes along a swept parameter, not along seeds", n->text);
+        return;
+    }
+    size_t count;
+    const struct ensemble *const *all = ensemble_all(&count);
+    const char *name[MAX_NAMES];
+    for (size_t i = 0; i < count && i < MAX_NAMES; i++)
+        name[i] = all[i]->name;
+    case_read_unknown(r, n, "fit over seeds", n->text, name, count < MAX_NAMES ? count : MAX_NAMES);
+}
+
+static bool gives_curve(const struct recipe *recipe, const char *name) {
+    for (size_t i = 0; recipe->curves != NULL && recipe->curves[i] != NULL; i++) {
+        if (strcmp(recipe->curves[i], name) == 0)
+            return true;
+    }
+    return false;
+}
+
+/* Does the observable hold what the fit reads? */
+static void check_ensemble(struct case_reader *r, const struct yaml_node *n,
+                           const struct case_across *a) {
+    const struct case_observable *o = &r->c->observable[a->of.index];
+    const struct ensemble *e = a->ensemble;
+    if (e == NULL || o->recipe == NULL)
+        return; /* told elsewhere */
+    if (e->recipe != NULL && strcmp(e->recipe, o->recipe->name) != 0) {
+        case_read_fault(r, n, "of: %s fits %s, and %s is of recipe %s", e->name, e->recipe, o->name,
+                        o->recipe->name);
+        return;
+    }
+    if (o->recipe->curves == NULL || o->recipe->curves[0] == NULL)
+        case_read_fault(r, n, "of: %s fits curves, and %s gives none", e->name, o->recipe->name);
+    for (size_t i = 0; e->curves != NULL && e->curves[i] != NULL; i++) {
+        if (!gives_curve(o->recipe, e->curves[i]))
+            case_read_fault(r, n, "of: %s needs the curve %s, which %s does not give", e->name,
+                            e->curves[i], o->recipe->name);
+    }
+}
+
+static void read_ensemble(struct case_reader *r, const struct yaml_node *n, struct case_across *a) {
+    const struct yaml_node *of = yaml_get(n, "of");
+    const char *names[MAX_NAMES];
+    size_t count = 0;
+    find_ensemble(r, yaml_get(n, "fit"), a);
+    if (yaml_get(n, "exact") != NULL)
+        case_read_fault(r, yaml_get(n, "exact"), "exact: a fit over seeds finds its own scatter");
+    for (size_t i = 0; i < r->c->observable_count && count < MAX_NAMES; i++) {
+        names[count++] = r->c->observable[i].name;
+        if (strcmp(of->text, r->c->observable[i].name) != 0)
+            continue;
+        r->observable_used[i] = true;
+        a->of = (struct case_number){.index = i};
+        check_ensemble(r, of, a);
+        return;
+    }
+    a->ensemble = NULL;
+    if (strchr(of->text, '.') != NULL)
+        case_read_fault(r, of, "of: a fit over seeds is of an observable, without an output");
+    else
+        case_read_unknown(r, of, "observable of this case", of->text, names, count);
+}
+
+/* What a fit over a sweep is of: an observable, or a fit over seeds that stands above. */
+static void read_of(struct case_reader *r, const struct yaml_node *n, struct case_across *a) {
+    if (case_read_number(r, n, &a->of) && a->of.across &&
+        r->c->across[a->of.index].ensemble == NULL) {
+        case_read_fault(r, n,
+                        "of: %s is a fit over a sweep; a fit is made of observables or of "
+                        "fits over seeds",
+                        r->c->across[a->of.index].name);
+        a->fit = NULL;
+    }
 }
 
 static void read_across(struct case_reader *r, const struct yaml_node *n, struct case_across *a) {
@@ -189,12 +282,16 @@ static void read_across(struct case_reader *r, const struct yaml_node *n, struct
     }
     if (!case_read_fields(r, n, "across", field, sizeof field / sizeof *field))
         return;
-    find_fit(r, yaml_get(n, "fit"), a);
     a->along = yaml_get(n, "along")->text;
     case_read_filter(r, yaml_get(n, "points"), &a->points);
+    if (strcmp(a->along, "seeds") == 0) {
+        read_ensemble(r, n, a);
+        return;
+    }
+    find_fit(r, yaml_get(n, "fit"), a);
     if (yaml_get(n, "exact") != NULL)
         yaml_boolean(yaml_get(n, "exact"), &a->exact, r->fault);
-    case_read_number(r, yaml_get(n, "of"), &a->of);
+    read_of(r, yaml_get(n, "of"), a);
 }
 
 static void read_all_across(struct case_reader *r) {
@@ -205,10 +302,11 @@ static void read_all_across(struct case_reader *r) {
     r->across_used = case_read_take(r, n->count, sizeof *r->across_used);
     if (list == NULL || r->across_used == NULL)
         return;
-    for (size_t i = 0; i < n->count; i++)
+    r->c->across = list;
+    for (size_t i = 0; i < n->count; i++) {
         read_across(r, &n->child[i], &list[i]);
-    r->c->across = list; /* set last: a fit is made of observables, not of fits */
-    r->c->across_count = n->count;
+        r->c->across_count = i + 1; /* those above can be named, not itself */
+    }
 }
 
 static void read_tags(struct case_reader *r) {

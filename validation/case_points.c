@@ -60,6 +60,29 @@ static void use_filter(struct case_reader *r, const struct grid *g, const struct
     }
 }
 
+/* A prediction's inputs that are parameters of the case must be numbers. */
+static void use_inputs(struct case_reader *r, const struct grid *g, const struct case_prediction *p,
+                       const struct yaml_node *node, size_t point) {
+    for (size_t i = 0;
+         p->prediction != NULL && i < PREDICTION_MAX_INPUTS && p->prediction->input[i] != NULL;
+         i++) {
+        const struct case_binding *in = &p->input[i];
+        const struct yaml_node *value =
+            in->kind == BINDING_PARAMETER ? grid_find(g, point, in->parameter) : NULL;
+        if (value == NULL ||
+            (value->kind == YAML_SCALAR && !value->quoted &&
+             (strcmp(value->text, "true") == 0 || strcmp(value->text, "false") == 0)))
+            continue; /* the solver's default, or a switch: 1 or 0 */
+        struct fault found = FAULT_NONE;
+        double ignored;
+        if (case_value_real(value, &ignored, &found) == STATUS_OK)
+            continue;
+        case_read_merge(r, &found);
+        case_read_fault(r, node, "%s: its input %s is the parameter %s, which is no number",
+                        p->prediction->name, p->prediction->input[i], in->parameter);
+    }
+}
+
 /* Follow the tables of an expectation for one point. */
 static void use_expect(struct case_reader *r, const struct grid *g, const struct case_check *k,
                        size_t point) {
@@ -83,6 +106,10 @@ static void use_expect(struct case_reader *r, const struct grid *g, const struct
         }
         e = next;
     }
+    const struct case_expect *found =
+        case_expect_find(&k->expect, grid_at(g, point), g->size[point]);
+    if (found != NULL && found->kind == EXPECT_PREDICTION)
+        use_inputs(r, g, &found->prediction, found->node, point);
 }
 
 /* Each group of points has enough values, all of them numbers, to fit along. */
@@ -108,10 +135,28 @@ static void use_across(struct case_reader *r, const struct grid *g, const struct
                             points, a->fit->name, a->fit->min_points);
             return;
         }
+        const struct case_across *of = a->of.across ? &r->c->across[a->of.index] : NULL;
+        if (of != NULL && !grid_takes(g, &of->points, p))
+            case_read_fault(r, a->node, "across %s: %s leaves out points that it takes", a->name,
+                            of->name);
         double x;
         struct fault found = FAULT_NONE;
-        if (yaml_real(grid_find(g, p, a->along), &x, &found) != STATUS_OK)
+        if (case_value_real(grid_find(g, p, a->along), &x, &found) != STATUS_OK)
             case_read_merge(r, &found);
+    }
+}
+
+/* Each point that a fit over seeds takes has enough of them. */
+static void use_ensemble(struct case_reader *r, const struct grid *g, const struct case_tier *t,
+                         const struct case_across *a) {
+    for (size_t p = 0; p < g->count; p++) {
+        size_t seeds = case_seed_count(&t->seeds, grid_at(g, p), g->size[p]);
+        if (!grid_takes(g, &a->points, p) || seeds >= a->ensemble->min_seeds)
+            continue;
+        case_read_fault(r, a->node, "across %s: %zu seeds in tier %s, %s needs %zu", a->name, seeds,
+                        case_tier_name((enum tier)(t - r->c->tier)), a->ensemble->name,
+                        a->ensemble->min_seeds);
+        return;
     }
 }
 
@@ -147,11 +192,18 @@ static void use_check(struct case_reader *r, const struct grid *g, const struct 
         use_across(r, g, t, a);
         check_along(r, t, k, a);
     }
+    const struct case_across *of =
+        a != NULL && a->fit != NULL && a->of.across ? &r->c->across[a->of.index] : a;
+    if (of != NULL && of->ensemble != NULL) {
+        use_filter(r, g, &of->points);
+        use_ensemble(r, g, t, of);
+    }
     for (size_t p = 0; p < g->count; p++) {
         if (!grid_takes(g, &k->points, p) || (a != NULL && !grid_takes(g, &a->points, p)))
             continue;
         taken++;
         use_expect(r, g, k, p);
+        use_inputs(r, g, &k->per, k->node, p);
     }
     if (taken == 0)
         case_read_fault(r, k->node,

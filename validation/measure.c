@@ -136,6 +136,68 @@ static enum status measure_run(struct bench *b, const struct measure_source *sou
     return bad.status == STATUS_OK ? STATUS_OK : spoil(b, &bad, fault);
 }
 
+/* -- all seeds of a point ----------------------------------------------------------- */
+
+/* Why the seeds of a point cannot be fitted together, or NULL.  m[i]: of seed i. */
+static const char *gather(const struct measured_point *p, const struct case_across *a,
+                          const struct measurement **m, struct arena *arena) {
+    for (size_t i = 0; i < p->run_count; i++) {
+        if (!p->run[i].usable)
+            return p->run[i].failure;
+        m[i] = &p->run[i].observable[a->of.index];
+        const char *const *curve = a->ensemble->curves;
+        for (; curve != NULL && *curve != NULL; curve++) {
+            if (ensemble_curve(m[i], *curve) == NULL)
+                return m[i]->reason[0] != '\0' ? m[i]->reason
+                                               : arena_text(arena, "no curve %s", *curve);
+        }
+    }
+    return NULL;
+}
+
+static enum status fit_ensemble(const struct case_file *c, const struct case_across *a,
+                                const struct measured_point *p, struct arena *arena,
+                                struct measured_ensemble *out, struct fault *fault) {
+    const struct measurement **m = arena_take(arena, p->run_count, sizeof *m);
+    if (m == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "measure: out of memory");
+    for (size_t i = 0; i < ENSEMBLE_MAX_OUTPUTS; i++)
+        out->value[i] = out->uncertainty[i] = NAN;
+    out->reason = gather(p, a, m, arena);
+    if (out->reason != NULL)
+        return STATUS_OK;
+    struct fault poor = FAULT_NONE;
+    enum status status = a->ensemble->fit(m, p->run_count, c->observable[a->of.index].setting,
+                                          out->value, out->uncertainty, &poor);
+    if (status == STATUS_NO_MEMORY) {
+        *fault = poor;
+        return status;
+    }
+    if (status == STATUS_OK)
+        return STATUS_OK;
+    for (size_t i = 0; i < ENSEMBLE_MAX_OUTPUTS; i++)
+        out->value[i] = out->uncertainty[i] = NAN;
+    out->reason = arena_copy(arena, poor.text);
+    return out->reason == NULL ? fault_set(fault, STATUS_NO_MEMORY, "measure: out of memory")
+                               : STATUS_OK;
+}
+
+enum status measured_fit_ensembles(const struct plan_case *plan, struct arena *arena,
+                                   struct measured_point *p, struct fault *fault) {
+    const struct case_file *c = plan->file;
+    enum status status = STATUS_OK;
+    p->ensemble = arena_take(arena, c->across_count, sizeof *p->ensemble);
+    if (p->ensemble == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "measure: out of memory");
+    for (size_t i = 0; status == STATUS_OK && i < c->across_count; i++) {
+        const struct case_across *a = &c->across[i];
+        if (a->ensemble != NULL &&
+            case_filter_takes(&a->points, p->point->parameter, p->point->parameter_count))
+            status = fit_ensemble(c, a, p, arena, &p->ensemble[i], fault);
+    }
+    return status;
+}
+
 static enum status measure_point(const struct plan_case *plan, const struct plan_point *point,
                                  const struct measure_source *source, struct measured_case *m,
                                  struct measured_point *out, struct fault *fault) {
@@ -150,7 +212,7 @@ static enum status measure_point(const struct plan_case *plan, const struct plan
         struct bench b = {plan, point, &out->run[i], &m->arena, NULL};
         status = measure_run(&b, source, fault);
     }
-    return status;
+    return status == STATUS_OK ? measured_fit_ensembles(plan, &m->arena, out, fault) : status;
 }
 
 enum status measure_case(const struct plan_case *plan, const struct measure_source *source,
@@ -217,7 +279,7 @@ double measured_parameter(const struct measured_point *p, const char *name) {
     double value = NAN;
     struct fault ignored = FAULT_NONE; /* no number: NaN says so */
     if (n != NULL)
-        yaml_real(n, &value, &ignored);
+        case_value_real(n, &value, &ignored);
     return value;
 }
 

@@ -26,10 +26,17 @@ struct measured_run {
     struct measured_sample *sample;     /* sample[0 .. tier's check_count-1] */
 };
 
+struct measured_ensemble { /* a fit over all seeds of a point */
+    double value[ENSEMBLE_MAX_OUTPUTS], uncertainty[ENSEMBLE_MAX_OUTPUTS];
+    const char *reason; /* why they are NaN, or NULL */
+};
+
 struct measured_point {
     const struct plan_point *point;
     size_t run_count;
     struct measured_run *run; /* run[0 .. run_count-1], one a seed */
+    /* ensemble[0 .. the case's across_count-1]; those that are fits over seeds count. */
+    struct measured_ensemble *ensemble;
 };
 
 struct measured_case {
@@ -53,12 +60,17 @@ enum status measure_case(const struct plan_case *plan, const struct measure_sour
                          struct measured_case **out, struct fault *fault);
 void measured_case_free(struct measured_case *m); /* NULL is allowed */
 
+/* Every fit over seeds of the case at a point whose runs are measured; measure_case does it. */
+enum status measured_fit_ensembles(const struct plan_case *plan, struct arena *arena,
+                                   struct measured_point *p, struct fault *fault);
+
 /* Mean over the point's usable runs of one output and its standard error (NaN
  * with fewer than two); returns the number of finite values.  For figures. */
 size_t measured_mean(const struct measured_point *p, size_t observable, size_t output, double *mean,
                      double *error);
 
-/* A point's parameter as a number; NaN when it is none or not set in the case. */
+/* A point's parameter as a number, or the one number of its list; NaN when it is none or not
+ * set in the case. */
 double measured_parameter(const struct measured_point *p, const char *name);
 bool measured_parameter_is(const struct measured_point *p, const char *name, const char *value);
 

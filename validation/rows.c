@@ -189,8 +189,9 @@ static enum status judge_group(struct clerk *k, size_t index, size_t first) {
     q.expected_uncertainty = g.expected_uncertainty;
     q.fit_uncertainty = g.uncertainty;
     q.missing = g.reason;
-    row.repeat = repeat_case(k);
-    return end_row(k, &q, NULL, check, &row);
+    const struct measured_point *alone = a->ensemble != NULL ? &k->m->point[first] : NULL;
+    row.repeat = alone != NULL ? repeat_point(k, alone) : repeat_case(k);
+    return end_row(k, &q, alone, check, &row);
 }
 
 static enum status judge_one(struct clerk *k, size_t index) {

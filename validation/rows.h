@@ -16,7 +16,7 @@ struct rows {
     struct arena arena;
     size_t count;
     struct report_row *row;              /* row[0 .. count-1] */
-    const struct measured_point **point; /* point[i]: NULL for across and run rows */
+    const struct measured_point **point; /* point[i]: NULL for fits over a sweep and run rows */
     const struct case_check **check;     /* check[i]: NULL for run rows */
 };
 

@@ -12,6 +12,8 @@ static bool takes(const struct measured_case *m, const struct case_across *a, si
 bool rows_group_has(const struct measured_case *m, const struct case_across *a, size_t p,
                     size_t q) {
     const struct case_tier *t = m->plan->tier;
+    if (a->ensemble != NULL)
+        return p == q && takes(m, a, p);
     return takes(m, a, p) && takes(m, a, q) &&
            case_points_agree(t, m->point[p].point->parameter, m->point[q].point->parameter,
                              case_axis_of(t, a->along));
@@ -37,9 +39,23 @@ static int by_x(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* The same of a fit over its seeds. */
+static bool take_fitted(const struct measured_point *p, const struct case_across *a,
+                        struct across_point *out, const char **reason) {
+    const struct measured_ensemble *e = &p->ensemble[a->of.index];
+    *out = (struct across_point){.x = measured_parameter(p, a->along),
+                                 .y = e->value[a->of.output],
+                                 .uncertainty = e->uncertainty[a->of.output]};
+    if (!isfinite(out->y) && *reason == NULL)
+        *reason = e->reason != NULL ? e->reason : "a fit over seeds gave no number";
+    return isfinite(out->y);
+}
+
 /* One point of the fit; false when a run has no value. */
 static bool take_point(const struct measured_point *p, const struct case_across *a,
                        struct across_point *out, const char **reason) {
+    if (a->of.across)
+        return take_fitted(p, a, out, reason);
     size_t count = measured_mean(p, a->of.index, a->of.output, &out->y, &out->uncertainty);
     out->x = measured_parameter(p, a->along);
     if (a->exact)
@@ -69,6 +85,27 @@ static void take_expected(const struct measured_point *p, size_t check, struct r
     }
 }
 
+/* The fit over the seeds of one point was made when it was measured; expected is the
+ * mean of what its runs expect. */
+static void take_ensemble(const struct measured_point *p, size_t check, const struct case_number *n,
+                          struct rows_group *out) {
+    const struct measured_ensemble *e = &p->ensemble[n->index];
+    double sum = 0, count = 0;
+    out->value = e->value[n->output];
+    out->uncertainty = e->uncertainty[n->output];
+    if (isnan(out->value) && out->reason == NULL)
+        out->reason = e->reason != NULL ? e->reason : "a fit over seeds gave no number";
+    take_expected(p, check, out);
+    for (size_t i = 0; i < p->run_count; i++) {
+        if (p->run[i].usable) {
+            sum += p->run[i].sample[check].expected;
+            count++;
+        }
+    }
+    if (count > 0)
+        out->expected = sum / count;
+}
+
 enum status rows_group_fit(const struct measured_case *m, size_t check, size_t first,
                            struct arena *arena, struct rows_group *out, struct fault *fault) {
     const struct case_check *k = &m->plan->tier->check[check];
@@ -81,6 +118,10 @@ enum status rows_group_fit(const struct measured_case *m, size_t check, size_t f
         .name = name_group(m, a, first, arena), .value = NAN, .uncertainty = NAN};
     if (point == NULL || out->name == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "fit: out of memory");
+    if (a->ensemble != NULL) {
+        take_ensemble(&m->point[first], check, &k->number, out);
+        return STATUS_OK;
+    }
     for (size_t p = first; p < m->point_count; p++) {
         if (rows_group_has(m, a, first, p))
             complete &= take_point(&m->point[p], a, &point[count++], &out->reason);

@@ -1,7 +1,7 @@
 /* rows_across.h -- fits over a sweep, for rows.c.
  *
  * A group is all points that an across observable takes and that differ in the
- * parameter it goes along, and in nothing else.
+ * parameter it goes along, and in nothing else; for a fit over seeds it is one point.
  */
 #ifndef VALIDATION_ROWS_ACROSS_H
 #define VALIDATION_ROWS_ACROSS_H

@@ -86,12 +86,39 @@ START_TEST(ends_compare_the_smallest_with_the_largest) {
 }
 END_TEST
 
+/* y = 3.1 - 1.7 x at x = .3, .4, .5, .6 with equal uncertainties: slope u/sqrt(sum (x - .45)^2). */
+START_TEST(a_slope_is_weighted_and_widened_by_scatter) {
+    const struct across *fit = across_find("slope");
+    double u = 0.02, spread = sqrt(2 * (0.15 * 0.15 + 0.05 * 0.05)), value[4], error[4];
+    struct across_point p[4];
+    struct fault fault = FAULT_NONE;
+    ck_assert_ptr_nonnull(fit);
+    for (size_t i = 0; i < 4; i++) {
+        double x = 0.3 + 0.1 * (double)i;
+        p[i] = (struct across_point){x, 3.1 - 1.7 * x, u};
+    }
+    unit_ok(fit->fit(p, 4, value, error, &fault), &fault);
+    double middle = 3.1 - 1.7 * 0.45;
+    ck_assert_double_eq_tol(value[0], -1.7, 1e-10);
+    ck_assert_double_eq_tol(error[0], u / spread, 1e-10);
+    ck_assert_double_eq_tol(value[1], -1.7 / middle, 1e-10);
+    ck_assert_double_eq_tol(error[1], hypot(u / spread, 1.7 / middle * u / 2) / middle, 1e-10);
+    /* Off by +-.1 in a way that no line follows: chi^2 = 4 (.1/.02)^2 = 100 for 2 degrees. */
+    for (size_t i = 0; i < 4; i++)
+        p[i].y += i == 0 || i == 3 ? 0.1 : -0.1;
+    unit_ok(fit->fit(p, 4, value, error, &fault), &fault);
+    ck_assert_double_eq_tol(value[0], -1.7, 1e-10);
+    ck_assert_double_eq_tol(error[0], sqrt(50) * u / spread, 1e-10);
+}
+END_TEST
+
 int main(void) {
     const TTest *const tests[] = {an_order_is_found_and_its_sign_told_apart,
                                   uncertain_points_weigh_by_their_uncertainty,
                                   two_points_without_scatter_are_exact_only_when_said_so,
                                   a_zero_carries_the_uncertainty_of_the_line,
                                   ends_compare_the_smallest_with_the_largest,
+                                  a_slope_is_weighted_and_widened_by_scatter,
                                   NULL};
     return unit_run("across", tests);
 }
