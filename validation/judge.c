@@ -8,35 +8,65 @@
 #include <stdio.h>
 
 static const double confidence = 0.95;
-/* A declared scatter is refuted when seeds scatter so much with this probability. */
+/* A declared scatter is refuted by seeds that scatter as much with this probability, where no
+ * alarm rate is given. */
 static const double refutation = 1e-5;
-/* Part of a regression check's alarm rate that goes to the scatter of its seeds. */
+/* Part of a check's alarm rate that goes to the scatter of its seeds. */
 static const double spread_part = 0.1;
 
-enum verdict judge_interval(enum comparison c, double d, double h, double tolerance) {
-    double low = d - h, high = d + h;
-    bool pass = false, fail = true;
+struct judge_range judge_passing(enum comparison c, double h, double tolerance) {
     switch (c) {
     case COMPARE_WITHIN:
-        pass = low >= -tolerance && high <= tolerance;
-        fail = high < -tolerance || low > tolerance;
-        break;
+        return (struct judge_range){-tolerance + h, tolerance - h, false};
     case COMPARE_OUTSIDE:
-        pass = low > tolerance || high < -tolerance;
-        fail = low >= -tolerance && high <= tolerance;
-        break;
+        return (struct judge_range){-tolerance - h, tolerance + h, true};
     case COMPARE_AT_MOST:
-        pass = high <= tolerance;
-        fail = low > tolerance;
-        break;
+        return (struct judge_range){-INFINITY, tolerance - h, false};
     case COMPARE_AT_LEAST:
-        pass = low >= -tolerance;
-        fail = high < -tolerance;
-        break;
+        return (struct judge_range){-tolerance + h, INFINITY, false};
     }
+    return (struct judge_range){NAN, NAN, false};
+}
+
+/* What fails one comparison passes the opposite one. */
+struct judge_range judge_failing(enum comparison c, double h, double tolerance) {
+    switch (c) {
+    case COMPARE_WITHIN:
+        return judge_passing(COMPARE_OUTSIDE, h, tolerance);
+    case COMPARE_OUTSIDE:
+        return judge_passing(COMPARE_WITHIN, h, tolerance);
+    case COMPARE_AT_MOST:
+        return judge_passing(COMPARE_AT_LEAST, h, -tolerance);
+    case COMPARE_AT_LEAST:
+        return judge_passing(COMPARE_AT_MOST, h, -tolerance);
+    }
+    return (struct judge_range){NAN, NAN, false};
+}
+
+static bool lies_in(const struct judge_range *r, double d) {
+    return r->outside ? d < r->low || d > r->high : d >= r->low && d <= r->high;
+}
+
+enum verdict judge_interval(enum comparison c, double d, double h, double tolerance) {
+    struct judge_range pass = judge_passing(c, h, tolerance);
+    struct judge_range fail = judge_failing(c, h, tolerance);
     if (!isfinite(d) || !isfinite(h) || !isfinite(tolerance))
         return VERDICT_INCONCLUSIVE;
-    return pass ? VERDICT_PASS : fail ? VERDICT_FAIL : VERDICT_INCONCLUSIVE;
+    if (lies_in(&pass, d))
+        return VERDICT_PASS;
+    return lies_in(&fail, d) ? VERDICT_FAIL : VERDICT_INCONCLUSIVE;
+}
+
+double judge_half_width(double uncertainty, double expected_uncertainty, double freedom) {
+    double p = (1 + confidence) / 2;
+    double quantile = isinf(freedom) ? gsl_cdf_ugaussian_Pinv(p) : gsl_cdf_tdist_Pinv(p, freedom);
+    return quantile * hypot(uncertainty, expected_uncertainty);
+}
+
+double judge_refuting_ratio(size_t seeds, double alarm_rate) {
+    double freedom = (double)seeds - 1;
+    double p = alarm_rate > 0 ? spread_part * alarm_rate : refutation;
+    return seeds < 2 ? INFINITY : sqrt(gsl_cdf_chisq_Qinv(p, freedom) / freedom);
 }
 
 static double amount_of(const struct case_amount *a, double expected) {
@@ -104,7 +134,7 @@ static double excess(enum comparison c, double d, double tolerance) {
 /* Every sample by itself; the worst one is shown. */
 static void judge_each(const struct judge_question *q, struct judge_answer *out) {
     double worst = -INFINITY;
-    double h = gsl_cdf_ugaussian_Pinv((1 + confidence) / 2) * q->expected_uncertainty;
+    double h = judge_half_width(0, q->expected_uncertainty, INFINITY);
     enum verdict v = VERDICT_PASS;
     for (size_t i = 0; i < q->count; i++) {
         double d = q->measured[i] - q->expected[i];
@@ -137,11 +167,11 @@ static double deviation(const struct judge_question *q) {
     return q->count < 2 ? NAN : sqrt(squares / (double)(q->count - 1));
 }
 
-/* Standard uncertainty of the mean and its quantile; false: there is none, and why. */
+/* Standard uncertainty of the mean and its degrees of freedom; false: there is none, and why. */
 static bool find_uncertainty(const struct judge_question *q, struct judge_answer *out,
-                             double *quantile) {
+                             double *freedom) {
     double n = (double)q->count, sd = deviation(q);
-    *quantile = gsl_cdf_ugaussian_Pinv((1 + confidence) / 2);
+    *freedom = INFINITY;
     if (q->fitted) {
         out->uncertainty = q->fit_uncertainty;
         if (!isfinite(out->uncertainty) || out->uncertainty < 0)
@@ -152,8 +182,7 @@ static bool find_uncertainty(const struct judge_question *q, struct judge_answer
     if (q->scatter.given) {
         double s = amount_of(&q->scatter, out->expected);
         out->uncertainty = s / sqrt(n);
-        double limit = q->count < 2 ? INFINITY : gsl_cdf_chisq_Qinv(refutation, n - 1);
-        if (q->count < 2 || (n - 1) * sd * sd <= limit * s * s)
+        if (q->count < 2 || sd <= judge_refuting_ratio(q->count, q->alarm_rate) * s)
             return true;
         say(out, VERDICT_INCONCLUSIVE,
             "the seeds scatter by %.3g, far more than the %.3g that the check declares", sd, s);
@@ -173,18 +202,18 @@ static bool find_uncertainty(const struct judge_question *q, struct judge_answer
             q->count, out->measured);
         return false;
     }
-    *quantile = gsl_cdf_tdist_Pinv((1 + confidence) / 2, n - 1);
+    *freedom = n - 1;
     return true;
 }
 
 static void judge_mean(const struct judge_question *q, struct judge_answer *out) {
-    double quantile;
+    double freedom;
     out->measured = mean_of(q->measured, q->count);
     out->expected = mean_of(q->expected, q->count);
     out->tolerance = amount_of(&q->margin, out->expected);
-    if (!find_uncertainty(q, out, &quantile))
+    if (!find_uncertainty(q, out, &freedom))
         return;
-    out->interval = quantile * hypot(out->uncertainty, out->expected_uncertainty);
+    out->interval = judge_half_width(out->uncertainty, out->expected_uncertainty, freedom);
     enum verdict v =
         judge_interval(q->comparison, out->measured - out->expected, out->interval, out->tolerance);
     say_interval(q, out, v);

@@ -15,9 +15,9 @@
  *
  * Round-off checks, and model checks that declare `scatter: 0`, have h = 0 and
  * judge every sample by itself, so that +1 and -1 cannot cancel.  A declared
- * scatter that the seeds contradict (chi-square, 1e-5) proves nothing and is
- * INCONCLUSIVE; so are seeds that agree to the last bit where scatter is
- * expected, for they are not independent.  An infinite value fails.
+ * scatter that the seeds contradict (chi-square, a tenth of the check's alarm
+ * rate) proves nothing and is INCONCLUSIVE; so are seeds that agree to the last bit where scatter
+ * is expected, for they are not independent.  An infinite value fails.
  *
  * A regression check asks whether anything has changed since a stored ensemble
  * of K seeds (mean mu, deviation s) was made.  It fails when
@@ -62,7 +62,7 @@ struct judge_question {
     const char *missing;         /* why a sample is NaN, or NULL */
     bool paired;                 /* regression, seed by seed: expected[] are the reference's */
     struct judge_ensemble ensemble;
-    double alarm_rate;        /* of a regression check: its share of the budget */
+    double alarm_rate;        /* the check's share of the budget; 0: none given */
     const char *no_reference; /* why there is no ensemble or no pair, or NULL */
     const char *known_since;  /* NULL: no disagreement is known */
 };
@@ -89,5 +89,20 @@ double judge_share_of_spread(double alarm_rate, size_t seeds);
 
 /* What d +- h says about the accepted set: the heart of the above. */
 enum verdict judge_interval(enum comparison c, double d, double h, double tolerance);
+
+/* Which d pass, and which fail: those from low to high, or all others.  None where low > high. */
+struct judge_range {
+    double low, high;
+    bool outside;
+};
+struct judge_range judge_passing(enum comparison c, double h, double tolerance);
+struct judge_range judge_failing(enum comparison c, double h, double tolerance);
+
+/* h from standard uncertainties; freedom INFINITY: normal. */
+double judge_half_width(double uncertainty, double expected_uncertainty, double freedom);
+
+/* Seeds that scatter by more than this times the declared scatter refute it: once in
+ * 10/alarm_rate runs by chance (1e5 where the rate is 0: none was given). */
+double judge_refuting_ratio(size_t seeds, double alarm_rate);
 
 #endif
