@@ -4,8 +4,8 @@
  *      "modified", "modification", "verdict", "counts": {pass, fail, inconclusive, known, skipped},
  *      "checks": [{case, point, check, observable, unit, measured, uncertainty, expected,
  *                  expected_uncertainty, tolerance, comparison, kind, verdict, because, reason,
- *                  runs: [id], values: [number], seeds: [integer], detectable, alarm_rate,
- *                  since, bits}],
+ *                  runs: [id], values: [number], seeds: [integer], freedom, key,
+ *                  meaning, *                  detectable, alarm_rate, since, bits}],
  *      "skipped": [{case, reason}],
  *      "provenance": {name: value}}
  *
@@ -58,6 +58,9 @@ static void put_values(struct json *j, const struct report_row *row) {
     for (size_t i = 0; i < row->value_count; i++)
         json_integer(j, row->seeds[i]);
     json_end_array(j);
+    put_real(j, "freedom", row->freedom);
+    put_text(j, "key", row->key);
+    put_text(j, "meaning", row->meaning);
     put_real(j, "detectable", row->detectable);
     put_real(j, "alarm_rate", row->alarm_rate);
     put_text(j, "since", row->since);

@@ -37,6 +37,9 @@ struct report_row {
     size_t value_count;     /* what each seed gave: 0 where a row has no values of single seeds */
     const double *values;   /* values[0 .. value_count-1], unit of measured; NaN: missing */
     const long long *seeds; /* seeds[i] gave values[i] */
+    double freedom;         /* degrees of freedom of the uncertainty; INFINITY: declared */
+    const char *key;        /* what references call the observable, or NULL */
+    const char *meaning;    /* digest of its runs and observables, or NULL */
     double detectable;      /* smallest change seen with 95 %, unit of measured; NaN: not known */
     double alarm_rate;      /* probability of no pass for unchanged code; NaN: not known */
     const char *since;      /* date since which the disagreement is known, or NULL */

@@ -1,6 +1,6 @@
 /* bedcheck.c -- the program: validation cases run, judged and reported.
  *
- *     bedcheck list | show | recipes | run | check | report | clean
+ *     bedcheck list | show | recipes | run | check | report | clean | compare | history
  *
  * Only the command line is read here, one parser a command; command_*.c do the
  * work.  Exit codes: 0 all checks pass, 1 a check failed, 3 inconclusive, 2
@@ -34,14 +34,19 @@ enum key {
     KEY_SEED_OFFSET,
     KEY_STALE,
     KEY_REFERENCES,
-    KEY_SEEDS
+    KEY_SEEDS,
+    KEY_JSON,
+    KEY_MARKDOWN,
+    KEY_LEVEL,
+    KEY_FILE,
+    KEY_PLOT
 };
 
 /* Lists that the options point into. */
 struct line {
     struct command_options o;
     const char *pattern[MAX_WORDS], *tag[MAX_WORDS], *skip[MAX_WORDS], *setting[MAX_WORDS];
-    bool takes_folder; /* the one argument is a folder of results */
+    size_t folders; /* how many folders of results are its arguments; 0: they are cases */
     size_t patterns_needed;
 };
 
@@ -72,17 +77,21 @@ static void read_tier(struct argp_state *state, struct command_options *o, const
 }
 
 static void take_argument(struct argp_state *state, struct line *l, const char *word) {
-    if (!l->takes_folder)
+    if (l->folders == 0)
         add_word(state, l->pattern, &l->o.pattern_count, word);
-    else if (l->o.out != NULL)
-        argp_error(state, "one folder at a time: %s", word);
-    else
+    else if (l->o.out == NULL)
         l->o.out = word;
+    else if (l->folders == 2 && l->o.other == NULL)
+        l->o.other = word;
+    else
+        argp_error(state, "%s: %s", l->folders == 2 ? "two folders" : "one folder at a time", word);
 }
 
 static void check_arguments(struct argp_state *state, const struct line *l) {
-    if (l->takes_folder && l->o.out == NULL)
+    if (l->folders > 0 && l->o.out == NULL)
         argp_error(state, "which folder of results?");
+    if (l->folders == 2 && l->o.other == NULL)
+        argp_error(state, "compare %s with which folder?", l->o.out);
     if (l->o.pattern_count < l->patterns_needed)
         argp_error(state, "which case?");
     if (l->o.failed && l->o.pattern_count > 0)
@@ -117,6 +126,29 @@ static error_t parse_choice(int key, char *text, struct line *l, struct argp_sta
         return 0;
     default:
         return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static error_t parse_comparison(int key, char *text, struct line *l, struct argp_state *state) {
+    struct command_options *o = &l->o;
+    switch (key) {
+    case KEY_JSON:
+    case KEY_MARKDOWN:
+        if (o->format != FORMAT_TEXT)
+            argp_error(state, "one of --json and --markdown");
+        o->format = key == KEY_JSON ? FORMAT_JSON : FORMAT_MARKDOWN;
+        return 0;
+    case KEY_LEVEL:
+        o->level = read_number(state, "--level", text, 1e-12, 0.5, false);
+        return 0;
+    case KEY_FILE:
+        o->file = text;
+        return 0;
+    case KEY_PLOT:
+        o->plot = text;
+        return 0;
+    default:
+        return parse_choice(key, text, l, state);
     }
 }
 
@@ -158,7 +190,7 @@ static error_t parse(int key, char *text, struct argp_state *state) {
         check_arguments(state, l);
         return 0;
     default:
-        return parse_choice(key, text, l, state);
+        return parse_comparison(key, text, l, state);
     }
 }
 
@@ -178,6 +210,17 @@ static const struct argp_option check_options[] = {OPTION_CASES, OPTION_REFERENC
 static const struct argp_option no_options[] = {{0}};
 static const struct argp_option clean_options[] = {
     {"stale", KEY_STALE, 0, 0, "Only results of other solver builds than the last run's", 0}, {0}};
+static const struct argp_option compare_options[] = {
+    {"json", KEY_JSON, 0, 0, "For programs", 0},
+    {"markdown", KEY_MARKDOWN, 0, 0, "For a pull request", 0},
+    {"level", KEY_LEVEL, "L", 0,
+     "Probability of any false alarm in the whole comparison (default 0.001)", 0},
+    {0}};
+static const struct argp_option history_options[] = {
+    {"file", KEY_FILE, "FILE", 0, "Append a line on DIR to FILE (JSON lines)", 0},
+    {"plot", KEY_PLOT, "FILE", 0, "Draw what FILE holds", 0},
+    {"out", KEY_OUT, "FOLDER", 0, "Where to (default bedcheck-out/history)", 0},
+    {0}};
 static const struct argp_option run_options[] = {
     OPTION_CASES,
     OPTION_REFERENCES,
@@ -219,25 +262,29 @@ static int run_report(const struct command_options *o, const struct console *c) 
 struct command {
     const char *name, *arguments, *doc;
     const struct argp_option *options;
-    bool takes_folder;
+    size_t folders; /* that are its arguments */
     size_t patterns_needed;
     int (*run)(const struct command_options *o, const struct console *c);
 };
 
 static const struct command commands[] = {
-    {"list", "[CASE|GLOB]...", "Name the cases.", list_options, false, 0, run_list},
-    {"show", "CASE|GLOB...", "Show question, sources, points and checks of cases.", show_options,
-     false, 1, command_show},
+    {"list", "[CASE|GLOB]...", "Name the cases.", list_options, 0, 0, run_list},
+    {"show", "CASE|GLOB...", "Show question, sources, points and checks of cases.", show_options, 0,
+     1, command_show},
     {"recipes", "", "Name the observables, predictions, fits and figures that a case may use.",
-     no_options, false, 0, run_recipes},
-    {"run", "[CASE|GLOB]...", "Run cases, judge them and write the report.", run_options, false, 0,
+     no_options, 0, 0, run_recipes},
+    {"run", "[CASE|GLOB]...", "Run cases, judge them and write the report.", run_options, 0, 0,
      command_run},
-    {"check", "DIR", "Judge the results in DIR again, without running anything.", check_options,
-     true, 0, run_check},
+    {"check", "DIR", "Judge the results in DIR again, without running anything.", check_options, 1,
+     0, run_check},
     {"report", "DIR", "Judge the results in DIR again and write the report.", check_options, true,
      0, run_report},
-    {"clean", "DIR", "Remove what bedcheck wrote in DIR, and nothing else.", clean_options, true, 0,
+    {"clean", "DIR", "Remove what bedcheck wrote in DIR, and nothing else.", clean_options, 1, 0,
      command_clean},
+    {"compare", "OLD NEW", "Compare two folders of results: is it more than scatter?",
+     compare_options, 2, 0, command_compare},
+    {"history", "[DIR]", "Keep and draw the trends of many commits.", history_options, 0, 0,
+     command_history},
 };
 
 static void print_usage(FILE *out) {
@@ -306,17 +353,21 @@ static int perform(const struct command *command, struct line *l) {
     o->setting = l->setting;
     o->path_list = getenv("PATH");
     o->environment = environ;
-    if (o->cases_folder == NULL && !command->takes_folder)
+    if (o->cases_folder == NULL && command->folders == 0)
         o->cases_folder = cases;
-    if (o->references_folder == NULL && !command->takes_folder)
+    if (o->references_folder == NULL && command->folders == 0)
         o->references_folder = references;
     if (o->solver == NULL)
         o->solver = solver == NULL ? "bedsim" : solver;
     if (o->jobs == 0)
         o->jobs = processors < 1 ? 1 : (size_t)processors;
     if (o->out == NULL)
-        o->out = standard_out[o->tier];
-    if (o->cases_folder == NULL && !command->takes_folder && command->run != run_recipes)
+        o->out = command->run == command_history ? "bedcheck-out/history" : standard_out[o->tier];
+    if (!(o->level > 0))
+        o->level = 1e-3;
+    bool reads_cases =
+        command->folders == 0 && command->run != run_recipes && command->run != command_history;
+    if (o->cases_folder == NULL && reads_cases)
         fprintf(stderr, "bedcheck: no folder of cases beside this program; use --cases DIR\n");
     else
         code = command->run(o, &console);
@@ -333,7 +384,7 @@ static int run_command(const struct command *command, int argc, char **argv) {
         fputs("bedcheck: out of memory\n", stderr);
         return 2;
     }
-    l->takes_folder = command->takes_folder;
+    l->folders = command->folders;
     l->patterns_needed = command->patterns_needed;
     snprintf(name, sizeof name, "bedcheck %s", command->name);
     argv[0] = name;

@@ -16,6 +16,8 @@ struct console {
     bool live; /* a terminal: show progress */
 };
 
+enum command_format { FORMAT_TEXT, FORMAT_JSON, FORMAT_MARKDOWN };
+
 struct command_options {
     const char *cases_folder;      /* NULL: what the folder's record says (check, report) */
     const char *references_folder; /* NULL: what the folder's record says */
@@ -28,8 +30,12 @@ struct command_options {
     enum tier tier;
     bool tier_given, dry_run, failed, stop_at_failure, stale;
     size_t jobs;
-    size_t seed_count; /* --seeds; 0: as the cases say */
-    double limit_s;    /* --timeout; 0: as the cases say */
+    size_t seed_count;       /* --seeds; 0: as the cases say */
+    const char *other;       /* compare: the second folder */
+    const char *file, *plot; /* history: --file, --plot */
+    double level;            /* compare: of false alarms, for the whole comparison */
+    enum command_format format;
+    double limit_s; /* --timeout; 0: as the cases say */
     long long seed_offset;
 };
 
@@ -44,5 +50,12 @@ int command_run(const struct command_options *o, const struct console *c);
 /* command_check.c: judge again what is there; with `page`, write report/index.html too. */
 int command_check(const struct command_options *o, bool page, const struct console *c);
 int command_clean(const struct command_options *o, const struct console *c);
+
+/* command_compare.c: 0 nothing significant, 1 a significant difference, 2 not comparable or
+ * trouble, 3 too little data. */
+int command_compare(const struct command_options *o, const struct console *c);
+
+/* command_history.c */
+int command_history(const struct command_options *o, const struct console *c);
 
 #endif

@@ -1,6 +1,7 @@
 #include "validation/rows.h"
 
 #include "validation/judge.h"
+#include "validation/reference.h"
 #include "validation/rows_across.h"
 
 #include <math.h>
@@ -115,6 +116,27 @@ static enum status begin_row(struct clerk *k, const struct case_check *check, co
     return row->observable == NULL ? no_memory(k) : STATUS_OK;
 }
 
+/* What the row is kept under as a reference, so that other runs of the suite find it. */
+static enum status name_row(struct clerk *k, size_t check, size_t point, struct report_row *row) {
+    struct reference_key key;
+    enum status status =
+        reference_key_make(k->m->plan, check, point, &k->rows->arena, &key, k->fault);
+    if (status == STATUS_OK) {
+        row->key = key.observable;
+        row->meaning = key.meaning;
+    }
+    return status;
+}
+
+/* Degrees of freedom of the uncertainty that the judge gives the mean. */
+static double freedom_of(const struct judge_question *q) {
+    if (q->kind == KIND_REGRESSION && !q->paired && q->ensemble.seeds > 0)
+        return (double)q->ensemble.seeds - 1;
+    if (q->fitted || (q->scatter.given && q->scatter.value > 0))
+        return INFINITY;
+    return q->count > 0 ? (double)q->count - 1 : 0;
+}
+
 static enum status end_row(struct clerk *k, const struct judge_question *q,
                            const struct measured_point *point, const struct case_check *check,
                            struct report_row *row) {
@@ -126,6 +148,7 @@ static enum status end_row(struct clerk *k, const struct judge_question *q,
     row->expected_uncertainty = answer.expected_uncertainty;
     row->tolerance = answer.tolerance;
     row->verdict = answer.verdict;
+    row->freedom = freedom_of(q);
     row->reason = arena_copy(&k->rows->arena, answer.reason);
     return row->reason == NULL ? no_memory(k) : add(k, row, point, check);
 }
@@ -163,6 +186,8 @@ static enum status judge_point(struct clerk *k, size_t index, const struct measu
         status = list_runs(k, p, &row);
     if (status == STATUS_OK)
         status = list_values(k, p, measured, &row);
+    if (status == STATUS_OK)
+        status = name_row(k, index, (size_t)(p - k->m->point), &row);
     row.repeat = repeat_point(k, p);
     return status == STATUS_OK ? end_row(k, &q, p, check, &row) : status;
 }
@@ -179,6 +204,8 @@ static enum status judge_group(struct clerk *k, size_t index, size_t first) {
         if (rows_group_has(k->m, a, first, p))
             status = list_runs(k, &k->m->point[p], &row);
     }
+    if (status == STATUS_OK)
+        status = name_row(k, index, first, &row);
     if (status != STATUS_OK)
         return status;
     struct judge_question q = ask(check);

@@ -44,6 +44,7 @@ static inline struct report_row sample_row(const char *name, const char *point, 
                                .reason = "1.2 lies within 1.21 ± 0.036",
                                .repeat = "bedsim run 'a b.yaml' --seed 1101",
                                .seconds = 1.37,
+                               .freedom = 3,
                                .detectable = (double)NAN,
                                .alarm_rate = (double)NAN};
 }

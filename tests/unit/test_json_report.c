@@ -28,7 +28,8 @@ START_TEST(every_row_has_every_member) {
         "tolerance", "kind",     "verdict",     "because",
         "reason",    "runs",     "comparison",  "expected_uncertainty",
         "values",    "seeds",    "detectable",  "alarm_rate",
-        "since",     "bits"};
+        "since",     "bits",     "freedom",     "meaning",
+        "key"};
     struct sample s;
     struct fault fault = FAULT_NONE;
     struct yaml_document *document;
