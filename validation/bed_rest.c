@@ -41,8 +41,10 @@ enum status bed_rest_solve(const double in[BED_INPUTS], bool local, struct hydro
                                   .walls = {walls, walls},
                                   .floor = true,
                                   .local_temperature = local};
-    if (local)
+    if (local) {
+        bed.restitution = in[BED_RESTITUTION];
         bed.heat_ratio = heat_ratio(in, hydrostatic_bulk_of(&bed, bed.phibar), temperature_J);
+    }
     return hydrostatic_solve(&bed, out, fault);
 }
 

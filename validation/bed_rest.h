@@ -46,7 +46,8 @@ enum bed_rest_input {
 double bed_rest_column_R(const double input[BED_INPUTS]);
 double bed_rest_height_R(const double input[BED_INPUTS]);
 
-/* local: the temperature of each height from its own balance of powers, else one for all. */
+/* local: the temperature of each height from its own balance of powers, and the pressure of
+ * inelastic collisions; else one temperature for all, and the pressure of elastic spheres. */
 enum status bed_rest_solve(const double input[BED_INPUTS], bool local,
                            struct hydrostatic_profile *out, struct fault *fault);
 /* Height and width of the solved profile, read with above_R and plateau_free. */

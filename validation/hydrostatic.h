@@ -27,6 +27,12 @@
  * kicks of the run: t (2 gamma + (1/3) f(p, T t)(1 - eps^2)) is the same at all heights, f Enskog's
  * rate, and t = 1 at p of phi = phibar.  Conduction of heat, left out, would spread it.
  *
+ * or is looked up in a table of measured temperatures over packing fractions, which leaves the
+ * balance of forces alone to be tested.  Collisions of restitution eps push (1 + eps)/2 as hard, so
+ * that
+ *
+ *     Z = 1 + ((1 + eps)/2) 4 p chi(p)                                                       (3)
+ *
  * Solved for N(z), the column above z, on a grid that Delta/2 is a multiple of, by Newton's method:
  * second order in the spacing, and exact for the dilute end's exponential.
  *
@@ -55,7 +61,12 @@ struct hydrostatic_bed {
     /* Local balance of powers; heat_ratio = (1/3)(1 - eps^2) f(phibar, T)/(2 gamma) (1) */
     bool local_temperature;
     double heat_ratio;
-    double spacing_R; /* 0: chosen; else made to divide Delta/2 */
+    /* Measured: t at fractions phi rising, straight between, constant beyond; count 0: none.
+     * Borrowed. */
+    const double *table_fraction, *table_temperature; /* [0 .. table_count-1] (1) */
+    size_t table_count;
+    double restitution; /* of (3); 0: elastic */
+    double spacing_R;   /* 0: chosen; else made to divide Delta/2 */
 };
 
 struct hydrostatic_profile {
@@ -76,7 +87,7 @@ double hydrostatic_bulk_of(const struct hydrostatic_bed *bed, double fraction);
 double hydrostatic_fraction_of(const struct hydrostatic_bed *bed, double bulk);
 /* d(p) in R (2). */
 double hydrostatic_depth_R(double bulk);
-/* t(p): 1 without local_temperature. */
+/* t(p): 1 without local_temperature and table. */
 double hydrostatic_temperature(const struct hydrostatic_bed *bed, double bulk);
 
 #endif

@@ -35,7 +35,7 @@ enum {
     HEIGHT_ERROR,
     PLATEAU,
     FIT_RMS,
-    SHOULDER_RMS,
+    SHOULDER_RATIO,
     BULK,
     BOTTOM_PEAK,
     PEAK_HEIGHT,
@@ -211,7 +211,7 @@ static enum status measure_profile(const struct bed *b, const struct window *w, 
         out->value[HEIGHT] = fit.height_R;
         out->value[PLATEAU] = fit.plateau;
         out->value[FIT_RMS] = fit.rms;
-        out->value[SHOULDER_RMS] = fit.shoulder_rms;
+        out->value[SHOULDER_RATIO] = fit.shoulder_rms / fit.rms;
         measure_foot(b, profile, out);
         status = add_curves(b, profile, &fit, out, fault);
     }
@@ -392,7 +392,7 @@ const struct recipe recipe_bed_interface = {
                {"height_error", "R", "standard, from blocks of time"},
                {"plateau", "1", "of the fit"},
                {"fit_rms", "1", "root mean square of the residuals"},
-               {"shoulder_rms", "1", "of those from h - 4 sigma to h - sigma"},
+               {"shoulder_ratio", "1", "of those from h - 4 sigma to h - sigma, over fit_rms"},
                {"bulk", "1", "packing fraction of the middle fifth"},
                {"bottom_peak", "1", "largest packing fraction within 4 R of the floor"},
                {"peak_height", "R", "middle of the slab that has it"},
