@@ -35,51 +35,45 @@ static double misses(const struct alarm_question *q, double h, double pooled, do
                    : below(high, freedom) - below(low, freedom);
 }
 
-static double with_known_scatter(const struct alarm_question *q) {
-    const struct judge_ensemble *e = &q->ensemble;
-    double n = (double)q->seeds, freedom = (double)e->seeds - 1;
-    double scatter = q->fitted ? e->deviation : q->declared;
-    double h = judge_half_width(scatter / sqrt(n), q->expected_uncertainty, INFINITY);
-    double rate = misses(q, h, e->deviation, freedom);
-    double ratio = judge_refuting_ratio(q->seeds, q->share) * scatter / e->deviation;
-    if (!q->fitted && q->seeds > 1)
-        rate += gsl_cdf_fdist_Q(ratio * ratio, n - 1, freedom);
-    return fmin(rate, 1);
+/* Half width of the interval where the seeds scatter by w times the ensemble's deviation. */
+static double half_width(const struct alarm_question *q, double w) {
+    double n = (double)q->seeds, s = q->ensemble.deviation;
+    if (q->fitted || isfinite(q->declared))
+        return judge_half_width((q->fitted ? s : q->declared) / sqrt(n), q->expected_uncertainty,
+                                INFINITY);
+    return judge_half_width(s * w / sqrt(n), q->expected_uncertainty, n - 1);
 }
 
 /* Density of w = v/s times the probability of an alarm at that w. */
 static double integrand(double w, void *context) {
     const struct alarm_question *q = context;
-    const struct judge_ensemble *e = &q->ensemble;
-    double own = (double)q->seeds - 1, stored = (double)e->seeds - 1, both = own + stored;
-    double pooled = e->deviation * sqrt((stored + own * w * w) / both);
-    double u = e->deviation * w / sqrt((double)q->seeds);
-    double h = judge_half_width(u, q->expected_uncertainty, own);
-    return 2 * w * gsl_ran_fdist_pdf(w * w, own, stored) * misses(q, h, pooled, both);
+    double own = (double)q->seeds - 1, stored = (double)q->ensemble.seeds - 1, both = own + stored;
+    double pooled = q->ensemble.deviation * sqrt((stored + own * w * w) / both);
+    return 2 * w * gsl_ran_fdist_pdf(w * w, own, stored) *
+           misses(q, half_width(q, w), pooled, both);
 }
 
-/* Where the interval of w becomes wider than what it must lie in. */
-static double widest(const struct alarm_question *q) {
+/* The w beyond which every run raises an alarm, as far as that is known: a declared scatter is
+ * refuted, or an interval is wider than what it must lie in. */
+static double hopeless(const struct alarm_question *q) {
     double h = judge_half_width(1, 0, (double)q->seeds - 1); /* of unit uncertainty */
-    double u = q->tolerance / h, e = q->expected_uncertainty;
-    if (!(q->tolerance > 0))
+    double u = q->tolerance / h, e = q->expected_uncertainty, s = q->ensemble.deviation;
+    if (isfinite(q->declared))
+        return judge_refuting_ratio(q->seeds, q->share) * q->declared / s;
+    if (q->comparison != COMPARE_WITHIN || q->known)
         return INFINITY;
-    return u > e ? sqrt(u * u - e * e) * sqrt((double)q->seeds) / q->ensemble.deviation : INFINITY;
+    return u > e ? sqrt((u * u - e * e) * (double)q->seeds) / s : 0;
 }
 
-static double with_scatter_of_its_own(struct alarm_question *q) {
+static double integrate(struct alarm_question *q) {
     double own = (double)q->seeds - 1, stored = (double)q->ensemble.seeds - 1;
-    double end = sqrt(gsl_cdf_fdist_Qinv(remote, own, stored)), edge = fmin(widest(q), end);
+    double end = fmin(sqrt(gsl_cdf_fdist_Qinv(remote, own, stored)), hopeless(q));
     gsl_integration_glfixed_table *table = gsl_integration_glfixed_table_alloc(NODES);
     gsl_function f = {.function = integrand, .params = q};
     double sum = gsl_cdf_fdist_Q(end * end, own, stored), from = 0;
     const double stop[] = {0.1, 0.5, 1, 2, 4, 8, 32, 512, INFINITY};
     for (size_t i = 0; table != NULL && i < sizeof stop / sizeof *stop; i++) {
         double to = fmin(stop[i], end);
-        if (edge > from && edge < to) {
-            sum += gsl_integration_glfixed(&f, from, edge, table);
-            from = edge;
-        }
         sum += gsl_integration_glfixed(&f, from, to, table);
         from = to;
     }
@@ -94,8 +88,11 @@ double alarm_rate(const struct alarm_question *q) {
     if (e->seeds < 2 || q->seeds < 1 || !(e->deviation > 0) || !isfinite(e->deviation) ||
         !isfinite(e->mean) || !isfinite(q->tolerance) || !isfinite(q->expected_uncertainty))
         return NAN;
-    if (q->fitted || isfinite(q->declared))
-        return with_known_scatter(q);
+    bool scatter_is_known = q->fitted || isfinite(q->declared);
+    if (q->seeds < 2 && !scatter_is_known)
+        return 1; /* one seed of unknown scatter never passes */
+    if (q->seeds < 2 || q->fitted)
+        return misses(q, half_width(q, 1), e->deviation, (double)e->seeds - 1);
     struct alarm_question copy = *q;
-    return q->seeds < 2 ? 1 : with_scatter_of_its_own(&copy);
+    return integrate(&copy);
 }

@@ -6,11 +6,11 @@
  *     mean d:        (d - D) / (p sqrt(1/n + 1/K)) is Student's t
  *     deviation v:   v^2/s^2 is F(n-1, K-1)
  *
- * With a declared scatter the interval d +- h has a fixed h, p = s, and t has K-1
- * degrees of freedom.  Without one h follows v, and p is the pooled deviation,
- * p^2 = ((K-1) s^2 + (n-1) v^2) / (n+K-2), with as many degrees of freedom as it
- * has below the line; it is independent of v/s, so that the rate is one integral over v.
- * Added is the probability that the seeds refute the declared scatter.
+ * p pools both deviations, p^2 = ((K-1) s^2 + (n-1) v^2) / (n+K-2); the t has as
+ * many degrees of freedom as stand below the line and is independent of v/s, so that
+ * the rate is one integral over v: of the probability that d +- h, with h from v or
+ * from the declared scatter, does not lie where the usual verdict needs it, and of 1
+ * where v refutes the declared scatter.
  *
  * Of a fit over a sweep the uncertainty is taken for s/sqrt(n).
  *

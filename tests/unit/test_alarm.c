@@ -123,9 +123,8 @@ START_TEST(small_rates_keep_their_digits) {
     double h = judge_half_width(0.0131 / sqrt(2), 0, INFINITY);
     double x = (0.11 - h) / (0.0131 * sqrt(0.5 + 1.0 / 32));
     ck_assert_double_gt(x, 9);
-    /* Two tails, and seeds that refute the scatter: F(1, 31) beyond 19.51. */
-    double tails = 2 * 2.6e-11, refuted = 1.13e-4;
-    ck_assert_double_eq_tol(alarm_rate(&q), tails + refuted, 0.02 * refuted);
+    /* Seeds that refute the scatter, F(1, 31) beyond 19.51, and far fewer in the two tails. */
+    ck_assert_double_eq_tol(alarm_rate(&q), 1.1322e-4, 1e-7);
     q.fitted = true;
     ck_assert_double_lt(alarm_rate(&q), 3e-10);
     ck_assert_double_gt(alarm_rate(&q), 3e-12);
