@@ -82,6 +82,27 @@ static double wave_ratio(const double *in) {
     return spheres_wave_ratio(&w);
 }
 
+/* As wave_of with the wavelength, then restitution. */
+static double complex heated_root(const double *in) {
+    struct spheres_gas g = {in[6], in[7], in[8], in[9]};
+    struct spheres_wave w = wave_of(in, in[11]);
+    return spheres_heated_root(&w, &g, in[12]);
+}
+
+static double heated_growth(const double *in) {
+    return creal(heated_root(in));
+}
+
+static double heated_speed(const double *in) {
+    return -cimag(heated_root(in)) * in[11] / (2 * M_PI);
+}
+
+static double heated_ratio(const double *in) {
+    struct spheres_gas g = {in[6], in[7], in[8], in[9]};
+    struct spheres_wave w = wave_of(in, NAN);
+    return spheres_heated_ratio(&w, &g, in[11]);
+}
+
 /* In radii. */
 static double fastest_wavelength(const double *in) {
     struct spheres_wave w = wave_of(in, NAN);
@@ -183,4 +204,22 @@ const struct prediction PREDICT_SUSPENSION[PREDICT_SUSPENSION_COUNT] = {
      .source = "Gaster, J. Fluid Mech. 14, 222 (1962); docs/theory.md S8",
      .input = {STATE, NULL},
      .at = growth_with_height},
+    {.name = "heated-wave-growth",
+     .title = "Growth rate of a wave of density in inelastic spheres with a local temperature",
+     .unit = "1/s",
+     .source = "docs/theory.md S8",
+     .input = {WAVE, "restitution", NULL},
+     .at = heated_growth},
+    {.name = "heated-wave-speed",
+     .title = "Phase speed of a wave of density in inelastic spheres with a local temperature",
+     .unit = "m/s",
+     .source = "docs/theory.md S8",
+     .input = {WAVE, "restitution", NULL},
+     .at = heated_speed},
+    {.name = "heated-stability-ratio",
+     .title = "Kinematic over sound speed, long waves, inelastic spheres, local temperature",
+     .unit = "1",
+     .source = "docs/theory.md S8",
+     .input = {STATE, "restitution", NULL},
+     .at = heated_ratio},
 };

@@ -71,6 +71,13 @@ double spheres_longitudinal(const struct spheres_gas *g) {
     return (4 * spheres_viscosity(g) / 3 + bulk) / (n * g->mass_kg);
 }
 
+double spheres_conductivity(const struct spheres_gas *g) {
+    double d = 2 * g->radius_m, covolume = 4 * g->packing_fraction;
+    double dense = covolume * spheres_contact(g->packing_fraction);
+    double dilute = 1.025 * 75 / 64 * sqrt(g->temperature_J / (M_PI * g->mass_kg)) / (d * d);
+    return dilute * covolume * (1 / dense + 1.2 + 0.7574 * dense);
+}
+
 double spheres_box_correction(const struct spheres_gas *g, double side_m) {
     return 2.837297 * g->temperature_J / (6 * M_PI * spheres_viscosity(g) * side_m);
 }
@@ -107,6 +114,58 @@ double complex spheres_wave_root(const struct spheres_wave *w) {
 
 double spheres_wave_ratio(const struct spheres_wave *w) {
     return layered_push(w) / (damping(w) * sqrt(w->sound2_m2_per_s2));
+}
+
+/* What heats and cools, and the pressure, of inelastic spheres that kicks keep at T. */
+struct heat {
+    double thermal2_m2_per_s2;  /* T/m */
+    double pressure, stiffness; /* Z and d(phi Z)/d phi (1) */
+    double loss_per_s, steepness, relaxation_per_s;
+};
+
+static struct heat heat_of(const struct spheres_wave *w, const struct spheres_gas *g, double eps) {
+    double p = g->packing_fraction, k = 2 * M_PI / w->wavelength_m, share = (1 + eps) / 2;
+    struct heat h = {
+        .thermal2_m2_per_s2 = g->temperature_J / g->mass_kg,
+        .pressure = 1 + share * (spheres_compressibility(p) - 1),
+        .stiffness = 1 + share * (spheres_stiffness(p) - 1),
+        .loss_per_s = (1 - eps * eps) / 3 * spheres_collision_rate(g),
+        .steepness = 1 + p * (3 / (1 - p) - 1 / (2 - p)),
+    };
+    h.relaxation_per_s = 2 * w->drag_per_s + 1.5 * h.loss_per_s +
+                         2 * spheres_conductivity(g) / (3 * number_density(g)) * k * k;
+    return h;
+}
+
+/* What takes the place of c_T^2 (m^2/s^2) in a wave exp(st). */
+static double complex heated_sound(const struct heat *h, double complex s) {
+    double z = h->pressure;
+    double complex heating = 2.0 / 3 * z * z * s - z * h->loss_per_s * h->steepness;
+    return h->thermal2_m2_per_s2 * (h->stiffness + heating / (s + h->relaxation_per_s));
+}
+
+/* s by iteration: heat is faster than waves, so c^2 hardly depends on s. */
+double complex spheres_heated_root(const struct spheres_wave *w, const struct spheres_gas *g,
+                                   double restitution) {
+    enum { ITERATIONS = 200 };
+    const struct heat h = heat_of(w, g, restitution);
+    double k = 2 * M_PI / w->wavelength_m, rate = damping(w);
+    double complex s = 0, last = 1;
+    for (int i = 0; i < ITERATIONS && cabs(s - last) > 1e-12 * cabs(s); i++) {
+        double complex rest = heated_sound(&h, s) * k * k + I * layered_push(w) * k;
+        last = s;
+        s = (-rate + csqrt(rate * rate - 4 * rest)) / 2;
+    }
+    return cabs(s - last) <= 1e-9 * cabs(s) ? s : NAN;
+}
+
+double spheres_heated_ratio(const struct spheres_wave *w, const struct spheres_gas *g,
+                            double restitution) {
+    struct spheres_wave slow = *w;
+    slow.wavelength_m = INFINITY;
+    const struct heat h = heat_of(&slow, g, restitution);
+    return w->packing_fraction * w->push_m_per_s2 /
+           (w->drag_per_s * sqrt(creal(heated_sound(&h, 0))));
 }
 
 /* Minus the growth rate (1/s) of a wave of exp(x) layers. */

@@ -18,15 +18,20 @@
  *     s^2 + (gamma + nu_l k^2) s + i phi b' W k + c_T^2 k^2 = 0  linear waves exp(st + ikz)
  *     phi b' W/((gamma + nu_l k^2) c_T)                          above 1: the wave grows
  *
+ *     c_T^2 + (T/m) ((2/3) Z^2 s - Z L q)/(s + 2 gamma + (3/2) L + D_T k^2)  for c_T^2: see below
+ *
  * with W = sin(k Delta/2)/(k Delta/2), c_T^2 = (T/m) d(phi Z)/d phi and
- * nu_l = (4 eta/3 + zeta)/(n m).
+ * nu_l = (4 eta/3 + zeta)/(n m).  The last line is for a gas whose temperature is local: kicks give
+ * each sphere the same, drag takes 2 gamma T, collisions L T with L = (1-eps^2) f/3, which
+ * grows with density as phi^q, q = d ln(phi chi)/d ln phi; pressure heats, and Enskog's
+ * conductivity evens out, D_T = 2 lambda/(3 n).  Denser places are colder, which takes away from
+ * the pressure's resistance.  Inelastic spheres press less: Z = 1 + 2 (1+eps) phi chi.
  *
  * Source:     Carnahan & Starling, J. Chem. Phys. 51, 635 (1969); Chapman & Cowling,
  *             Mathematical Theory of Non-uniform Gases, ch. 16; Erpenbeck & Wood,
  *             Phys. Rev. A 43, 4254 (1991) for D; Clisby & McCoy, J. Stat. Phys. 122, 15
  *             (2006) for the virial coefficients; Fiege & Zippelius for the model.
- * Leaves out: packing fractions above .5, where spheres freeze; inelasticity; waves of
- *             temperature.
+ * Leaves out: packing fractions above .5, where spheres freeze; inelasticity but for the last line.
  * Checked by: tests/unit/test_sphere_laws.c.
  */
 #ifndef VALIDATION_SPHERE_LAWS_H
@@ -54,6 +59,7 @@ spheres_collision_rate(const struct spheres_gas *g); /* collisions a particle ta
 double spheres_diffusion(const struct spheres_gas *g);    /* of an unbounded fluid (m^2/s) */
 double spheres_viscosity(const struct spheres_gas *g);    /* shear (Pa s) */
 double spheres_longitudinal(const struct spheres_gas *g); /* (4 eta/3 + zeta)/(n m) (m^2/s) */
+double spheres_conductivity(const struct spheres_gas *g); /* heat, Enskog: of T in J (1/(m s)) */
 /* What a periodic cube of this side takes off the diffusivity: 2.837 T/(6 pi eta L) (m^2/s);
  * Duenweg & Kremer, J. Chem. Phys. 99, 6983 (1993); Yeh & Hummer, J. Phys. Chem. B 108,
  * 15873 (2004). */
@@ -75,6 +81,11 @@ double complex spheres_wave_root(const struct spheres_wave *w);
 /* phi b' W/((gamma + nu_l k^2) c_T): the wave grows where it is above 1.  Long waves: the
  * speed of kinematic waves over that of sound. */
 double spheres_wave_ratio(const struct spheres_wave *w);
+/* Root and long-wave ratio of a gas with a local temperature; w->sound2_m2_per_s2 is not read. */
+double complex spheres_heated_root(const struct spheres_wave *w, const struct spheres_gas *g,
+                                   double restitution);
+double spheres_heated_ratio(const struct spheres_wave *w, const struct spheres_gas *g,
+                            double restitution);
 /* The wavelength (m), between one and 1000 layers' thickness, that grows fastest, whatever
  * w->wavelength_m is; NAN where none grows. */
 double spheres_fastest_wave(const struct spheres_wave *w);

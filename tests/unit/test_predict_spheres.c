@@ -88,6 +88,12 @@ START_TEST(waves_grow_where_the_kinematic_wave_outruns_sound) {
     memcpy(far, in, sizeof far);
     far[11] = 1e4; /* neither layers nor viscosity matter */
     ck_assert_double_eq_tol(at("stability-ratio", far), ratio, 1e-6 * ratio);
+    double elastic[] = {5, 0.3, 4.65, 9.81, 0.6, 1, 0.3, 2e-9, 6e-4, 2.262e-6, 10, 0.3, 1};
+    double hot = at("heated-wave-growth", elastic), speed = at("heated-wave-speed", elastic);
+    ck_assert_double_eq_tol(hot, at("density-wave-growth", in), 0.15 * hot);
+    ck_assert_double_eq_tol(speed, at("density-wave-speed", in), 0.1 * speed);
+    elastic[11] = 1;
+    ck_assert_double_eq_tol(at("heated-stability-ratio", elastic), ratio, 1e-6 * ratio);
     double peak = at("fastest-wavelength", in) * in[8], beside[12];
     memcpy(beside, in, sizeof beside);
     beside[11] = peak;

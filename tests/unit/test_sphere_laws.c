@@ -131,6 +131,68 @@ START_TEST(waves_grow_exactly_where_their_ratio_is_above_one) {
 }
 END_TEST
 
+/* Density, speed and temperature integrated in time: pressure by differences, heat from its
+ * balance. Elastic spheres first, then inelastic ones. */
+START_TEST(heated_root_is_what_integration_tends_to) {
+    const double eps[] = {1, 0.73};
+    for (int n = 0; n < 2; n++) {
+        struct spheres_gas g = {0.33, 2.3e-9, 5.9e-4, 2.2e-6};
+        struct spheres_wave w = {.packing_fraction = 0.33,
+                                 .push_m_per_s2 = 11.7,
+                                 .drag_per_s = 27.3,
+                                 .layer_m = 6e-3,
+                                 .wavelength_m = 0.047,
+                                 .viscosity_m2_per_s = spheres_longitudinal(&g)};
+        double k = 2 * M_PI / w.wavelength_m, window = sin(k * 3e-3) / (k * 3e-3), h = 1e-6;
+        double p = g.packing_fraction, t = g.temperature_J / g.mass_kg, d = 1e-5;
+        double number = p / (4 * M_PI / 3 * pow(g.radius_m, 3));
+        struct spheres_gas up = g, down = g;
+        up.packing_fraction += d;
+        down.packing_fraction -= d;
+        double z = 1 + 2 * (1 + eps[n]) * p * spheres_contact(p);
+        double rise = ((p + d) * (1 + 2 * (1 + eps[n]) * (p + d) * spheres_contact(p + d)) -
+                       (p - d) * (1 + 2 * (1 + eps[n]) * (p - d) * spheres_contact(p - d))) /
+                      (2 * d);
+        double loss = (1 - eps[n] * eps[n]) / 3;
+        double rate = spheres_collision_rate(&g);
+        double steeper = (spheres_collision_rate(&up) - spheres_collision_rate(&down)) / (2 * d);
+        double spread = 2 * spheres_conductivity(&g) / (3 * number) * k * k;
+        double complex phi = 1e-3, u = 0, heat = 0, before = 0;
+        int steps = 600000;
+        for (int i = 0; i < steps; i++) {
+            before = i == steps - 50000 ? phi : before;
+            double complex force =
+                w.push_m_per_s2 * window * phi - I * k * (t * rise * phi + p * z * heat) / p;
+            u = (u + h * force) / (1 + h * (w.drag_per_s + w.viscosity_m2_per_s * k * k));
+            heat -= h * (2.0 / 3 * z * t * I * k * u + loss * t * steeper * phi +
+                         (2 * w.drag_per_s + 1.5 * loss * rate + spread) * heat);
+            phi -= h * I * k * p * u;
+        }
+        double complex now = clog(phi / before) / (50000 * h);
+        double complex s = spheres_heated_root(&w, &g, eps[n]);
+        ck_assert_double_eq_tol(creal(now), creal(s), 2e-3 * cabs(s));
+        ck_assert_double_eq_tol(cimag(now), cimag(s), 2e-3 * cabs(s));
+    }
+}
+END_TEST
+
+/* Long waves change sign where the ratio is 1. */
+START_TEST(heated_ratio_is_that_of_long_waves) {
+    struct spheres_gas g = {0.33, 2.3e-9, 5.9e-4, 2.2e-6};
+    struct spheres_wave w = {.packing_fraction = 0.33,
+                             .push_m_per_s2 = 3.1,
+                             .drag_per_s = 27.3,
+                             .layer_m = 6e-3,
+                             .wavelength_m = 30,
+                             .viscosity_m2_per_s = spheres_longitudinal(&g)};
+    double push = w.push_m_per_s2 / spheres_heated_ratio(&w, &g, 0.73);
+    w.push_m_per_s2 = push * 1.001;
+    ck_assert_double_gt(creal(spheres_heated_root(&w, &g, 0.73)), 0);
+    w.push_m_per_s2 = push * 0.999;
+    ck_assert_double_lt(creal(spheres_heated_root(&w, &g, 0.73)), 0);
+}
+END_TEST
+
 START_TEST(no_wavelength_grows_faster_than_the_fastest) {
     struct spheres_wave w = {.packing_fraction = 0.31,
                              .push_m_per_s2 = 39.1,
@@ -169,6 +231,8 @@ int main(void) {
                                   wave_root_is_what_integration_tends_to,
                                   waves_grow_exactly_where_their_ratio_is_above_one,
                                   no_wavelength_grows_faster_than_the_fastest,
+                                  heated_root_is_what_integration_tends_to,
+                                  heated_ratio_is_that_of_long_waves,
                                   drag_and_push_are_the_papers,
                                   NULL};
     return unit_run("sphere_laws", tests);
