@@ -62,6 +62,54 @@ static void show_node(FILE *out, const struct yaml_node *n) {
     fputc(']', out);
 }
 
+/* "phibar 0.3, phibar_values [0.35]", or what there is to say of none. */
+static void show_set(FILE *out, const struct yaml_node *sets) {
+    for (size_t i = 0; i < sets->count; i++) {
+        fprintf(out, "%s%s ", i == 0 ? "" : ", ", sets->child[i].key);
+        show_node(out, &sets->child[i]);
+    }
+    fputs(sets->count == 0 ? "nothing set\n" : "\n", out);
+}
+
+/* What a label, or a reading, stands for. */
+static void show_label(FILE *out, const struct case_tier *t, const char *name,
+                       const struct yaml_node *labels, const char *label) {
+    const struct yaml_node *sets = NULL;
+    if (labels != NULL)
+        sets = case_label_find(labels, label);
+    else if (strcmp(name, "reading") == 0 && t->readings != NULL)
+        sets = readings_parameters(t->readings, label);
+    if (sets != NULL) {
+        fprintf(out, "        %s: ", label);
+        show_set(out, sets);
+    }
+}
+
+static void show_parameters(FILE *out, const struct case_tier *t) {
+    for (size_t i = 0; i < t->parameter_count; i++) {
+        const struct case_parameter *p = &t->parameter[i];
+        fprintf(out, "    %s: ", p->name);
+        show_node(out, p->value);
+        fputc('\n', out);
+        if (p->sets != NULL) {
+            fputs("        sets ", out);
+            show_set(out, p->sets);
+        } else if (p->label) {
+            show_label(out, t, p->name, NULL, p->value->text);
+        }
+    }
+    for (size_t i = 0; i < t->axis_count; i++) {
+        const struct case_axis *a = &t->axis[i];
+        fprintf(out, "    %s: swept over ", a->name);
+        show_node(out, a->list);
+        fputc('\n', out);
+        for (size_t k = 0; k < a->list->count; k++) {
+            if (a->list->child[k].kind == YAML_SCALAR)
+                show_label(out, t, a->name, a->labels, a->list->child[k].text);
+        }
+    }
+}
+
 static void show_amount(FILE *out, const char *name, const struct case_amount *a) {
     if (a->given)
         fprintf(out, ", %s %g%s", name, a->value, a->percent ? " %" : "");
@@ -105,16 +153,7 @@ static void show_tier(FILE *out, const struct case_file *c, enum tier tier) {
     const struct case_tier *t = &c->tier[tier];
     fprintf(out, "\ntier %s: %zu points, %zu runs, about %g s each (limit %g s)\n",
             case_tier_name(tier), t->point_count, count_runs(t), t->expect_s, t->limit_s);
-    for (size_t i = 0; i < t->parameter_count; i++) {
-        fprintf(out, "    %s: ", t->parameter[i].name);
-        show_node(out, t->parameter[i].value);
-        fputc('\n', out);
-    }
-    for (size_t i = 0; i < t->axis_count; i++) {
-        fprintf(out, "    %s: swept over ", t->axis[i].name);
-        show_node(out, t->axis[i].list);
-        fputc('\n', out);
-    }
+    show_parameters(out, t);
     if (t->start.case_name != NULL)
         fprintf(out, "    starts from %s\n", t->start.case_name);
     fputs("  checks\n", out);
@@ -180,6 +219,18 @@ static void list_texts(FILE *out, const char *head, const char *const *text, siz
     fputc('\n', out);
 }
 
+static void list_ensemble(FILE *out, const struct ensemble *e) {
+    fprintf(out, "%s: %s (%s), at least %zu seeds\n", e->name, e->title, e->source, e->min_seeds);
+    for (size_t i = 0; i < ENSEMBLE_MAX_OUTPUTS && e->output[i].name != NULL; i++)
+        fprintf(out, "    gives   %s (%s): %s\n", e->output[i].name, e->output[i].unit,
+                e->output[i].doc);
+    fprintf(out, "    reads   %s%s", e->recipe == NULL ? "any recipe with curves" : e->recipe,
+            e->curves == NULL ? "" : ":");
+    for (size_t i = 0; e->curves != NULL && e->curves[i] != NULL; i++)
+        fprintf(out, " %s", e->curves[i]);
+    fputc('\n', out);
+}
+
 static void list_figure(FILE *out, const struct figure_recipe *f) {
     fprintf(out, "%s: %s, draws %zu observables\n", f->name, f->title, f->observables);
     for (size_t i = 0; i < CASE_FIGURE_SETTINGS && f->setting[i].name != NULL; i++)
@@ -207,6 +258,10 @@ int command_recipes(const struct console *c) {
                 across[i]->source, across[i]->min_points);
         list_texts(c->out, "gives  ", across[i]->output, ACROSS_MAX_OUTPUTS);
     }
+    const struct ensemble *const *ensemble = ensemble_all(&count);
+    fputs("\nFits over the seeds of a point\n\n", c->out);
+    for (size_t i = 0; i < count; i++)
+        list_ensemble(c->out, ensemble[i]);
     const struct figure_recipe *const *figure = figure_all(&count);
     fputs("\nFigures\n\n", c->out);
     for (size_t i = 0; i < count; i++)
