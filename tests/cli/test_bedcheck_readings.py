@@ -47,7 +47,8 @@ def test_points_are_named_by_reading_and_label(bench):  # noqa: F811
     assert ("fake/steady", "reading=raised,box=high box", "overlap") in verdicts
     assert ("fake/steady", "reading=plain,box=low box", "not another value") in verdicts
     assert set(verdicts.values()) == {"pass"}
-    assert "reading=raised,box=high box" in (bench.out / "index.html").read_text(encoding="utf-8")
+    page = (bench.out / "report" / "index.html").read_text(encoding="utf-8")
+    assert "reading=raised,box=high box" in page
 
 
 def test_run_files_tell_where_a_parameter_comes_from(bench):  # noqa: F811
