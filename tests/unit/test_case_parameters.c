@@ -282,6 +282,47 @@ START_TEST(labels_are_used_as_values_are) {
 }
 END_TEST
 
+/* -- inputs of predictions ---------------------------------------------------------- */
+
+static const char inputs[] =
+    "parameters: {particles: 137, phibar_values: %s}\n"
+    "across: {ends: {fit: ends, of: bed.largest_overlap, along: values}}\n"
+    "sweep: {step: {a: {values: [0.3]}, b: {values: [0.35]}}}\n"
+    "checks:\n"
+    "  - {name: c, observable: bed.sweeps_max, expect: {prediction: PREDICTION, %s: "
+    "phibar_values}, margin: 1, kind: model, because: b}\n"
+    "  - {name: e, observable: ends.ratio, expect: 1, margin: 1, kind: model, because: b}\n"
+    "tiers: {smoke: {}}\n";
+
+START_TEST(a_list_of_one_number_is_an_input) {
+    static const struct {
+        const char *value, *says;
+    } list[] = {{"[0.31]", NULL},
+                {"0.31", NULL},
+                {"true", NULL},
+                {"[0.31, 0.4]", "phibar_values: a list of 2, where one number is needed"},
+                {"[]", "phibar_values: a list of 0"},
+                {"[none]", "is not a number"},
+                {"none", "is the parameter phibar_values, which is no number"}};
+    size_t count;
+    const struct prediction *p = prediction_all(&count)[0];
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        char rest[2048], name[2048];
+        struct fault fault;
+        snprintf(name, sizeof name, inputs, list[i].value, p->input[0]);
+        char *at = strstr(name, "PREDICTION");
+        snprintf(rest, sizeof rest, "%.*s%s%s", (int)(at - name), name, p->name,
+                 at + strlen("PREDICTION"));
+        struct bench b = set_up(rest, TIER_SMOKE, &fault);
+        if (list[i].says == NULL)
+            unit_ok(fault.status, &fault);
+        else
+            unit_says(&fault, list[i].says);
+        tear_down(&b);
+    }
+}
+END_TEST
+
 START_TEST(a_model_without_readings_is_told_where_they_would_stand) {
     struct fault fault = FAULT_NONE;
     struct case_file *c;
@@ -310,6 +351,7 @@ int main(void) {
     tcase_add_loop_test(group, every_fault_of_a_tier_is_told, 0,
                         sizeof bad_tier / sizeof *bad_tier);
     tcase_add_loop_test(group, labels_are_used_as_values_are, 0, sizeof bad_use / sizeof *bad_use);
+    tcase_add_test(group, a_list_of_one_number_is_an_input);
     tcase_add_test(group, a_model_without_readings_is_told_where_they_would_stand);
     suite_add_tcase(suite, group);
     SRunner *runner = srunner_create(suite);
