@@ -77,6 +77,7 @@ START_TEST(a_reading_sets_what_nothing_else_sets) {
     ck_assert_str_eq(point(&b, 1)->name, "reading=fitted,width_R=13.7");
     ck_assert_str_eq(value(point(&b, 1), "scale"), "0.284");
     ck_assert_str_eq(value(point(&b, 1), "width_R"), "13.7"); /* swept: the case's own */
+    ck_assert_ptr_null(strstr(b.plan->run[0]->text, "width_R: 30"));
     has_line(b.plan->run[0], "  noise: fixed    # ");
     has_line(b.plan->run[0], "readings/fake.yaml:4, reading fitted\n");
     has_line(b.plan->run[0], "  grains: 137    # ");
@@ -124,6 +125,49 @@ START_TEST(a_reading_is_nothing_but_its_parameters) {
     ck_assert_str_eq(point(&plain, 0)->name, "single");
     tear_down(&named);
     tear_down(&plain);
+}
+END_TEST
+
+/* A run of `own` reading that starts from one of `first`; `point`: what `start` says. */
+static void start_from(const char *first, const char *own, const char *point, struct fault *fault) {
+    struct case_file *c[2] = {NULL, NULL};
+    struct plan *plan = NULL;
+    static const char *const name[2] = {"fake/heir", "fake/first"};
+    const char *folder = unit_folder();
+    ck_assert_int_eq(mkdir(unit_path(folder, "fake"), 0755), 0);
+    ck_assert_int_eq(mkdir(unit_path(folder, "readings"), 0755), 0);
+    unit_write(unit_path(folder, "readings/fake.yaml"), readings);
+    for (size_t i = 0; i < 2; i++) {
+        char text[2048];
+        snprintf(text, sizeof text,
+                 "name: %s\n%sparameters: {grains: 137, %s}\n%s%s%stiers: {smoke: {}}\n", name[i],
+                 head, i == 0 ? own : first, checks, i == 0 ? "start: {case: fake/first" : "",
+                 i == 0 ? point : "");
+        unit_write(unit_path(folder, i == 0 ? "fake/heir.yaml" : "fake/first.yaml"), text);
+        unit_ok(case_load(folder, name[i], &c[i], fault), fault);
+    }
+    struct plan_order order = {.file = c[0]};
+    const struct case_file *const all[] = {c[0], c[1]};
+    plan_make(&order, 1, all, 2, TIER_SMOKE, 0, &plan, fault);
+    plan_free(plan);
+    case_free(c[0]);
+    case_free(c[1]);
+    unit_remove(folder);
+}
+
+START_TEST(a_start_of_another_reading_must_be_said) {
+    struct fault fault = FAULT_NONE;
+    start_from("reading: fitted", "reading: fitted", "}\n", &fault);
+    unit_ok(fault.status, &fault);
+    start_from("reading: fitted", "scale: 1", "}\n", &fault); /* of no reading itself */
+    unit_ok(fault.status, &fault);
+    start_from("reading: fitted", "reading: literal", ", point: {reading: fitted}}\n", &fault);
+    unit_ok(fault.status, &fault);
+    start_from("reading: fitted", "reading: literal", "}\n", &fault);
+    unit_says(&fault, "no point of fake/first in tier smoke is meant by reading=literal");
+    fault = FAULT_NONE;
+    start_from("reading: fitted", "scale: 1", ", point: {reading: same}}\n", &fault);
+    unit_says(&fault, "reading: same, but single has no one value of it");
 }
 END_TEST
 
@@ -344,6 +388,7 @@ int main(void) {
     tcase_add_test(group, a_reading_sets_what_nothing_else_sets);
     tcase_add_test(group, a_swept_reading_makes_points_of_their_own);
     tcase_add_test(group, a_reading_is_nothing_but_its_parameters);
+    tcase_add_test(group, a_start_of_another_reading_must_be_said);
     tcase_add_test(group, a_label_stands_for_its_parameters);
     tcase_add_test(group, a_tier_chooses_labels_or_fixes_one);
     tcase_add_test(group, a_tier_may_have_labels_of_its_own);
