@@ -104,7 +104,15 @@ struct case_prediction {
     struct case_binding input[PREDICTION_MAX_INPUTS];
 };
 
-enum expect_kind { EXPECT_NUMBER, EXPECT_PREDICTION, EXPECT_TABLE, EXPECT_CURVE };
+/* EXPECT_NONE: what is expected is stored with the references of a regression check. */
+enum expect_kind {
+    EXPECT_NUMBER,
+    EXPECT_PREDICTION,
+    EXPECT_TABLE,
+    EXPECT_CURVE,
+    EXPECT_REFERENCE,
+    EXPECT_NONE
+};
 
 struct case_expect {
     enum expect_kind kind;
@@ -115,6 +123,7 @@ struct case_expect {
     const struct case_entry *entry;
     struct case_number along; /* EXPECT_CURVE: y over x, straight between the count points */
     const double *x, *y;      /* x increases */
+    const char *reference;    /* EXPECT_REFERENCE: "published", "independent", "analytic" */
     const struct yaml_node *node;
 };
 
@@ -141,7 +150,10 @@ struct case_check {
     enum comparison comparison;
     enum check_kind kind;
     struct case_amount margin, scatter;
-    const struct yaml_node *node;
+    struct case_amount detects; /* regression: the change that it must be able to see */
+    bool paired;                /* regression: seed by seed, within `margin` */
+    const char *known_because, *known_since; /* a known disagreement and its date, or NULL */
+    const struct yaml_node *node, *detects_node;
 };
 
 enum { CASE_FIGURE_SETTINGS = 8 };

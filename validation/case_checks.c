@@ -1,25 +1,34 @@
 /* case_checks.c -- the checks of a tier: the case's list with the tier's overrides. */
 #include "validation/case_read.h"
 
+#include <stdio.h>
 #include <string.h>
 
 enum { MAX_NAMES = 256 };
 
 static const char *const comparisons[] = {"within", "outside", "at most", "at least", NULL};
-static const char *const kinds[] = {"round-off", "order", "model", NULL};
+static const char *const kinds[] = {"round-off", "order", "model", "regression", NULL};
 
 static const struct schema_field check_fields[] = {
     {"name", SCHEMA_TEXT, true, 0, 0, NULL},
     {"observable", SCHEMA_TEXT, true, 0, 0, NULL},
     {"per", SCHEMA_MAP, false, 0, 0, NULL},
     {"points", SCHEMA_MAP, false, 0, 0, NULL},
-    {"expect", SCHEMA_ANY, true, 0, 0, NULL},
+    {"expect", SCHEMA_ANY, false, 0, 0, NULL},
     {"comparison", SCHEMA_CHOICE, false, 0, 0, comparisons},
     {"kind", SCHEMA_CHOICE, true, 0, 0, kinds},
     {"margin", SCHEMA_ANY, false, 0, 0, NULL},
     {"scatter", SCHEMA_ANY, false, 0, 0, NULL},
+    {"detects", SCHEMA_ANY, false, 0, 0, NULL},
+    {"paired", SCHEMA_BOOLEAN, false, 0, 0, NULL},
+    {"known", SCHEMA_MAP, false, 0, 0, NULL},
     {"because", SCHEMA_TEXT, true, 0, 0, NULL},
     {"tiers", SCHEMA_LIST, false, 0, 0, NULL},
+};
+
+static const struct schema_field known_fields[] = {
+    {"because", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"since", SCHEMA_TEXT, true, 0, 0, NULL},
 };
 
 static const struct schema_field override_fields[] = {
@@ -29,6 +38,8 @@ static const struct schema_field override_fields[] = {
     {"comparison", SCHEMA_CHOICE, false, 0, 0, comparisons},
     {"margin", SCHEMA_ANY, false, 0, 0, NULL},
     {"scatter", SCHEMA_ANY, false, 0, 0, NULL},
+    {"detects", SCHEMA_ANY, false, 0, 0, NULL},
+    {"known", SCHEMA_MAP, false, 0, 0, NULL},
     {"because", SCHEMA_TEXT, false, 0, 0, NULL},
 };
 
@@ -76,6 +87,75 @@ static bool is_blank(const char *text) {
     return text[strspn(text, " \t\n")] == '\0';
 }
 
+/* -- regression, and what is known --------------------------------------------------- */
+
+/* Keys that say nothing about a change, or that only a change has. */
+static void check_keys(struct case_reader *r, const struct layers *l, const struct case_check *k) {
+    static const char *const of_others[] = {"expect", "comparison", "scatter", "margin"};
+    static const char *const of_regression[] = {"detects", "paired"};
+    bool regression = k->kind == KIND_REGRESSION;
+    for (size_t i = 0; regression && i < (k->paired ? 3 : 4); i++) {
+        if (get(l, of_others[i]) != NULL)
+            case_read_fault(r, get(l, of_others[i]),
+                            "check %s: %s: a regression check takes it from its reference%s",
+                            k->name, of_others[i], i == 3 ? " unless it is `paired`" : "");
+    }
+    for (size_t i = 0; !regression && i < 2; i++) {
+        if (get(l, of_regression[i]) != NULL)
+            case_read_fault(r, get(l, of_regression[i]),
+                            "check %s: %s: belongs to regression checks", k->name,
+                            of_regression[i]);
+    }
+    if (!regression && get(l, "expect") == NULL)
+        case_read_fault(r, l->base, "check %s: expect: is missing", k->name);
+}
+
+static void read_regression(struct case_reader *r, const struct layers *l, struct case_check *k) {
+    const struct yaml_node *at = k->detects_node = get(l, "detects");
+    case_read_amount(r, at, &k->detects);
+    if (at == NULL)
+        case_read_fault(r, k->node, "check %s: detects: is missing, the change it must see",
+                        k->name);
+    else if (k->detects.given && !(k->detects.value > 0))
+        case_read_fault(r, at, "check %s: detects: must be above 0", k->name);
+    const struct case_across *a = k->number.across ? &r->c->across[k->number.index] : NULL;
+    if (a != NULL && (a->ensemble != NULL || a->of.across))
+        case_read_fault(r, yaml_get(l->base, "observable"),
+                        "check %s: %s is one number of all seeds and has no ensemble of seeds to "
+                        "be compared with",
+                        k->name, k->observable);
+    if (!k->paired)
+        return;
+    if (a != NULL)
+        case_read_fault(r, get(l, "paired"), "check %s: %s is no number of single runs", k->name,
+                        k->observable);
+    if (!k->margin.given || !(k->margin.value > 0))
+        case_read_fault(r, k->node, "check %s: a paired check needs a margin above 0", k->name);
+    else if (k->detects.given && k->detects.percent == k->margin.percent &&
+             2 * k->margin.value > k->detects.value)
+        case_read_fault(r, at,
+                        "check %s: detects: %g%s, but with this margin only %g%s is surely seen",
+                        k->name, k->detects.value, k->detects.percent ? " %" : "",
+                        2 * k->margin.value, k->detects.percent ? " %" : "");
+}
+
+static bool is_date(const char *text) {
+    int year, month, day, end = 0;
+    return strlen(text) == 10 && sscanf(text, "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 &&
+           end == 10 && year >= 2000 && month >= 1 && month <= 12 && day >= 1 && day <= 31;
+}
+
+static void read_known(struct case_reader *r, const struct yaml_node *n, struct case_check *k) {
+    if (n == NULL || !case_read_fields(r, n, "known", known_fields, 2))
+        return;
+    k->known_because = yaml_get(n, "because")->text;
+    k->known_since = yaml_get(n, "since")->text;
+    if (is_blank(k->known_because))
+        case_read_fault(r, yaml_get(n, "because"), "must not be empty");
+    if (!is_date(k->known_since))
+        case_read_fault(r, yaml_get(n, "since"), "since: must be a date, as 2026-11-22");
+}
+
 static void read_check(struct case_reader *r, const struct layers *l, struct case_check *k) {
     const struct yaml_node *per = get(l, "per"), *expect = get(l, "expect");
     k->node = l->base;
@@ -107,10 +187,19 @@ static void read_check(struct case_reader *r, const struct layers *l, struct cas
             k->unit = arena_text(&r->c->arena, "%s/(%s)", k->unit, p->unit);
     }
     case_read_filter(r, get(l, "points"), &k->points);
-    case_read_expect(r, expect, &k->expect);
+    k->expect = (struct case_expect){.kind = EXPECT_NONE, .node = k->node};
+    if (expect != NULL)
+        case_read_expect(r, expect, &k->expect);
     case_read_amount(r, get(l, "margin"), &k->margin);
     case_read_amount(r, get(l, "scatter"), &k->scatter);
-    check_amounts(r, l, k);
+    if (get(l, "paired") != NULL)
+        yaml_boolean(get(l, "paired"), &k->paired, r->fault);
+    check_keys(r, l, k);
+    if (k->kind == KIND_REGRESSION)
+        read_regression(r, l, k);
+    else
+        check_amounts(r, l, k);
+    read_known(r, get(l, "known"), k);
 }
 
 bool case_read_in_tier(const struct yaml_node *owner, enum tier t) {

@@ -133,6 +133,15 @@ double case_curve_at(const struct case_expect *e, double x) {
     return e->y[k] + (x - e->x[k]) * (e->y[k + 1] - e->y[k]) / (e->x[k + 1] - e->x[k]);
 }
 
+static void read_reference(struct case_reader *r, const struct yaml_node *n,
+                           struct case_expect *out) {
+    static const char *const origins[] = {"published", "independent", "analytic", NULL};
+    static const struct schema_field field[] = {{"reference", SCHEMA_CHOICE, true, 0, 0, origins}};
+    out->kind = EXPECT_REFERENCE;
+    if (case_read_fields(r, n, "expected reference", field, 1))
+        out->reference = yaml_get(n, "reference")->text;
+}
+
 static void read_uncertain(struct case_reader *r, const struct yaml_node *n,
                            struct case_expect *out) {
     static const struct schema_field field[] = {{"value", SCHEMA_REAL, true, 0, 0, NULL},
@@ -153,6 +162,8 @@ void case_read_expect(struct case_reader *r, const struct yaml_node *n, struct c
         read_table(r, n, out);
     } else if (n->kind == YAML_MAP && yaml_get(n, "along") != NULL) {
         read_curve(r, n, out);
+    } else if (n->kind == YAML_MAP && yaml_get(n, "reference") != NULL) {
+        read_reference(r, n, out);
     } else if (n->kind == YAML_MAP && yaml_get(n, "value") != NULL) {
         read_uncertain(r, n, out);
     } else if (n->kind == YAML_SCALAR) {
@@ -162,7 +173,7 @@ void case_read_expect(struct case_reader *r, const struct yaml_node *n, struct c
     } else {
         case_read_fault(r, n,
                         "%s: must be a number, {value: , uncertainty: }, {prediction: , ...}, "
-                        "{by: , values: } or {along: , values: }",
+                        "{by: , values: }, {along: , values: } or {reference: }",
                         n->key);
     }
 }

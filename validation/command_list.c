@@ -126,6 +126,10 @@ static void show_expect(FILE *out, const struct case_expect *e) {
         fputs("along", out);
         for (size_t i = 0; i < e->count; i++)
             fprintf(out, "%s %g: %g", i == 0 ? "" : ",", e->x[i], e->y[i]);
+    } else if (e->kind == EXPECT_REFERENCE) {
+        fprintf(out, "the %s reference", e->reference);
+    } else if (e->kind == EXPECT_NONE) {
+        fputs("what the reference gave", out);
     } else {
         fprintf(out, "by %s: ", e->by);
         for (size_t i = 0; i < e->count; i++) {
@@ -145,8 +149,11 @@ static void show_check(FILE *out, const struct case_check *k) {
     show_expect(out, &k->expect);
     show_amount(out, "margin", &k->margin);
     show_amount(out, "scatter", &k->scatter);
-    fprintf(out, " [%s]\n", case_kind_name(k->kind));
+    show_amount(out, "detects", &k->detects);
+    fprintf(out, " [%s%s]\n", case_kind_name(k->kind), k->paired ? ", paired" : "");
     fprintf(out, "        %.*s\n", (int)strcspn(k->because, "\n"), k->because);
+    if (k->known_since != NULL)
+        fprintf(out, "        known to disagree since %s: %s\n", k->known_since, k->known_because);
 }
 
 static void show_tier(FILE *out, const struct case_file *c, enum tier tier) {

@@ -89,7 +89,7 @@ static enum status sample_check(const struct bench *b, const struct case_check *
         s->expected = expect_along(b, e, &s->reason);
     else if (e->kind == EXPECT_NUMBER)
         s->expected = e->value;
-    s->expected_uncertainty = e->uncertainty;
+    s->expected_uncertainty = e->uncertainty; /* a stored reference is looked up by rows.c */
     return status;
 }
 
