@@ -2,8 +2,8 @@
  *
  * The page needs nothing else and may load nothing (a content policy forbids it).  Data stand in
  * it as base64: for each frame x and y of every grain in 65535 parts of the box, 16 bit, low byte
- * first; radii in parts of the largest; one byte a grain for its kind.  PAGE#t=12.5 begins, and
- * stays, at 12.5.
+ * first, and, for lit spheres, their depth likewise; radii in parts of the largest; one byte a
+ * grain for its kind.  PAGE#t=12.5 begins, and stays, at 12.5.
  */
 #include "report/animation.h"
 #include "report/draw.h"
@@ -39,31 +39,53 @@ static void put_block(FILE *out, const char *id, const unsigned char *bytes, siz
     fputs("</script>\n", out);
 }
 
-/* room[0 .. 4*count-1] */
+static double deepest(const struct report_sequence *s) {
+    double most = 0;
+    for (size_t f = 0; s->lit && f < s->frame_count; f++)
+        for (size_t i = 0; i < s->count; i++)
+            most = fmax(most, s->frame[f].depth[i]);
+    return most > 0 ? most : 1;
+}
+
+static void put_frame(FILE *out, const struct report_sequence *s, size_t frame, double most,
+                      unsigned char *room) {
+    const struct report_frame *f = &s->frame[frame];
+    unsigned char *at = room;
+    for (size_t i = 0; i < s->count; i++) {
+        put_word(at, f->position[2 * i] / s->width);
+        put_word(at + 2, f->position[2 * i + 1] / s->height);
+        at += 4;
+        if (s->lit) {
+            put_word(at, f->depth[i] / most);
+            at += 2;
+        }
+    }
+    escape_base64(out, (const char *)room, (size_t)(at - room));
+    fputc('\n', out);
+}
+
+/* room[0 .. 6*count-1] */
 static void put_data(FILE *out, const struct report_sequence *s, unsigned char *room) {
-    double most = largest_radius(s);
+    double most = largest_radius(s), deep = deepest(s);
     put_block(out, "kinds", s->kind, s->count);
     for (size_t i = 0; i < s->count; i++)
         put_word(&room[2 * i], s->radius[i] / most);
     put_block(out, "radii", room, 2 * s->count);
     fputs("<script type=\"text/plain\" id=\"frames\">\n", out);
-    for (size_t f = 0; f < s->frame_count; f++) {
-        for (size_t i = 0; i < s->count; i++) {
-            put_word(&room[4 * i], s->frame[f].position[2 * i] / s->width);
-            put_word(&room[4 * i + 2], s->frame[f].position[2 * i + 1] / s->height);
-        }
-        escape_base64(out, (const char *)room, 4 * s->count);
-        fputc('\n', out);
-    }
+    for (size_t f = 0; f < s->frame_count; f++)
+        put_frame(out, s, f, deep, room);
     fputs("</script>\n", out);
 }
 
 static void put_facts(FILE *out, const struct report_sequence *s) {
     fprintf(out,
             "<script type=\"application/json\" id=\"facts\">{\"width\":%.9g,\"height\":%.9g,"
-            "\"radius\":%.9g,\"ground\":\"%s\",\"colours\":[\"%s\",\"%s\"],\"times\":[",
-            s->width, s->height, largest_radius(s), DRAW_GROUND_COLOUR, DRAW_KIND_COLOUR[0],
-            DRAW_KIND_COLOUR[1]);
+            "\"radius\":%.9g,\"depth\":%.9g,\"lit\":%s,\"ground\":\"%s\",\"colours\":[",
+            s->width, s->height, largest_radius(s), deepest(s), s->lit ? "true" : "false",
+            draw_ground_colour(s));
+    for (size_t k = 0; draw_kind_colour(s, k); k++)
+        fprintf(out, "%s\"%s\"", k == 0 ? "" : ",", draw_kind_colour(s, k));
+    fputs("],\"times\":[", out);
     for (size_t f = 0; f < s->frame_count; f++)
         fprintf(out, "%s%.9g", f == 0 ? "" : ",", s->frame[f].time);
     fputs("]}</script>\n", out);
@@ -114,14 +136,14 @@ static void put_body(FILE *out, const struct report_sequence *s) {
     fputs("<noscript><p>This page needs scripts to draw; it loads nothing.</p></noscript>\n", out);
     put_controls(out, s);
     fputs("<ul class=\"key\">\n", out);
-    for (size_t k = 0; k < 2; k++)
-        put_swatch(out, DRAW_KIND_COLOUR[k], s->kind_label[k]);
-    put_swatch(out, DRAW_GROUND_COLOUR, s->ground_label);
-    fprintf(out, "<li>box %g × %g l</li>\n</ul>\n", s->width, s->height);
+    for (size_t k = 0; draw_kind_colour(s, k); k++)
+        put_swatch(out, draw_kind_colour(s, k), s->kind_label[k]);
+    put_swatch(out, draw_ground_colour(s), s->ground_label);
+    fprintf(out, "<li>box %g × %g %s</li>\n</ul>\n", s->width, s->height, draw_length_unit(s));
     if (s->caption && *s->caption)
         put_text(out, "<p>", s->caption, "</p>\n");
     fprintf(out,
-            "<p>%zu stored frames; between them grains are moved straight. Space: play or pause. "
+            "<p>%zu stored frames; between them all are moved straight. Space: play or pause. "
             "Arrow keys: frame by frame. Wheel, pinch, + and −: zoom; drag to move; 0: the whole "
             "box.</p>\n</main>\n",
             s->frame_count);
@@ -132,7 +154,7 @@ enum status draw_animation(const struct report_sequence *s, struct sheet *page,
     enum status status = draw_check_sequence(s, fault);
     if (status)
         return status;
-    unsigned char *room = calloc(s->count, 4);
+    unsigned char *room = calloc(s->count, 6);
     if (!room)
         return fault_set(fault, STATUS_NO_MEMORY, "animation %s: out of memory", s->name);
     status = sheet_open(page, fault);

@@ -19,6 +19,8 @@
 #include "report/report.h"
 #include "report/sheet.h"
 
+#include <stdio.h>
+
 /* An <svg> element in svg->text; every id in it begins with prefix, so that
  * figures of different prefixes can share a page.  On success sheet_free it. */
 enum status draw_figure(const struct report_figure *f, const char *prefix, struct sheet *svg,
@@ -42,9 +44,19 @@ struct drawing {
 enum status draw_picture(const struct report_picture *p, double px_per_l, struct drawing *out,
                          struct fault *fault);
 
-/* Of the grains of a sequence by kind, and of what is between them. */
+/* Of the grains of a sequence by kind, and of what is between them: discs, lit spheres. */
 extern const char *const DRAW_KIND_COLOUR[2];
 extern const char DRAW_GROUND_COLOUR[];
+extern const char *const DRAW_LIT_COLOUR[REPORT_KINDS];
+extern const char DRAW_LIT_GROUND_COLOUR[];
+const char *draw_kind_colour(const struct report_sequence *s, size_t kind); /* NULL: no such */
+const char *draw_length_unit(const struct report_sequence *s);
+const char *draw_ground_colour(const struct report_sequence *s);
+
+/* The lit spheres of a frame as a group of an SVG file, the floor's left end at its origin; its ids
+ * begin with prefix.  Spheres that others hide are left out: see spheres.c. */
+enum status draw_spheres(const struct report_sequence *s, size_t frame, double px_per_l,
+                         const char *prefix, FILE *out, struct fault *fault);
 
 /* STATUS_BAD_INPUT names the grain or frame that cannot be drawn; no grains or frames is a fault.
  */

@@ -44,7 +44,7 @@ static int shape_of(int colour) {
 }
 
 static bool has_points(const struct report_series *s) {
-    return s->style == SERIES_POINTS || s->style == SERIES_LINE_POINTS;
+    return s->style == SERIES_POINTS || s->style == SERIES_DOTS || s->style == SERIES_LINE_POINTS;
 }
 
 static bool is_drawable(const struct report_figure *f, const struct report_panel *p,
@@ -155,9 +155,10 @@ enum { CROWD = 150 };
 
 static void put_style(FILE *out, const struct report_series *s, double size) {
     const char *colour = colour_of(s->colour);
-    size *= s->count > CROWD ? 0.4 : 1;
+    size *= s->style == SERIES_DOTS || s->count > CROWD ? 0.4 : 1;
     switch (s->style) {
     case SERIES_POINTS:
+    case SERIES_DOTS:
         fprintf(out, "points pt %d ps %.2g lc rgb '%s'", shape_of(s->colour), size, colour);
         break;
     case SERIES_LINE:

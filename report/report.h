@@ -46,7 +46,8 @@ struct report_row {
     const char *bits;       /* what the bits of its runs say against the reference, or NULL */
 };
 
-enum series_style { SERIES_POINTS, SERIES_LINE, SERIES_DASHED, SERIES_LINE_POINTS };
+enum series_style { SERIES_POINTS, SERIES_DOTS, SERIES_LINE, SERIES_DASHED, SERIES_LINE_POINTS };
+/* Dots are small points, for a line to be seen through them. */
 
 struct report_series {
     const char *label;
@@ -88,19 +89,24 @@ struct report_picture {
 struct report_frame {
     double time;
     const double *position; /* position[2*grain + axis], l; y upwards */
+    const double *depth;    /* depth[grain], l behind the front; for lit spheres only */
 };
 
-/* The same grains at several times, of two kinds: side by side (sequence.c), or moving
- * (animation.c). */
+enum { REPORT_KINDS = 5 };
+
+/* The same grains at several times: side by side (sequence.c), or moving (animation.c).  They are
+ * flat discs of two kinds, dark and light, or lit spheres of five, the nearest in front. */
 struct report_sequence {
     const char *name, *title, *caption, *alt;
-    const char *time_unit;     /* "tau" */
-    const char *kind_label[2]; /* of the dark and of the light grains */
-    const char *ground_label;  /* of what is between them: "gas" */
-    double width, height;      /* of the box, l */
+    const char *time_unit;                /* "tau" */
+    const char *length_unit;              /* "R"; NULL: l, as all lengths below are called */
+    bool lit;                             /* spheres, of the depths that all frames then have */
+    const char *kind_label[REPORT_KINDS]; /* NULL where there is none */
+    const char *ground_label;             /* of what is between them: "gas" */
+    double width, height;                 /* of the box, l */
     size_t count, frame_count;
     const double *radius;             /* radius[0 .. count-1], l */
-    const unsigned char *kind;        /* kind[0 .. count-1]: 0 dark, 1 light */
+    const unsigned char *kind;        /* kind[0 .. count-1]: 0 dark, 1 light; lit: 0 to 4 */
     const struct report_frame *frame; /* frame[0 .. frame_count-1]; times increase */
 };
 

@@ -25,6 +25,20 @@ enum { CLASSES = 12, UNITS = 25, KINDS = 2 };
 
 const char *const DRAW_KIND_COLOUR[2] = {"#1d1d1d", "#ffffff"};
 const char DRAW_GROUND_COLOUR[] = "#8fbce6";
+
+const char *draw_kind_colour(const struct report_sequence *s, size_t kind) {
+    if (s->lit)
+        return kind < REPORT_KINDS ? DRAW_LIT_COLOUR[kind] : NULL;
+    return kind < KINDS ? DRAW_KIND_COLOUR[kind] : NULL;
+}
+
+const char *draw_length_unit(const struct report_sequence *s) {
+    return s->length_unit ? s->length_unit : "l";
+}
+
+const char *draw_ground_colour(const struct report_sequence *s) {
+    return s->lit ? DRAW_LIT_GROUND_COLOUR : DRAW_GROUND_COLOUR;
+}
 static const char INK[] = "#222222";
 
 struct layout {
@@ -50,15 +64,23 @@ struct pen {
 
 /* -- layout ----------------------------------------------------------------- */
 
-/* Columns so that the whole is about as wide as it is high. */
+/* px per l with so many columns. */
+static double scale_of(const struct report_sequence *s, size_t columns) {
+    double room = WIDTH - 2 * MARGIN - GAP * ((double)columns - 1);
+    return fmin(room / (double)columns / s->width, TALLEST / s->height);
+}
+
+/* Columns so that the whole is about as wide as it is high; more where panels lose no size. */
 static struct layout lay_out(const struct report_sequence *s) {
     struct layout l = {.width = WIDTH};
     double wanted = ceil(sqrt((double)s->frame_count * s->height / s->width) - .2);
     l.columns = wanted < 1 ? 1 : wanted > 6 ? 6 : (size_t)wanted;
     l.columns = l.columns > s->frame_count ? s->frame_count : l.columns;
+    while (s->lit && l.columns < 6 && l.columns < s->frame_count &&
+           scale_of(s, l.columns + 1) > .9 * scale_of(s, l.columns))
+        l.columns++;
     l.rows = (s->frame_count + l.columns - 1) / l.columns;
-    double room = WIDTH - 2 * MARGIN - GAP * ((double)l.columns - 1);
-    l.scale = fmin(room / (double)l.columns / s->width, TALLEST / s->height);
+    l.scale = scale_of(s, l.columns);
     l.panel_width = l.scale * s->width;
     l.panel_height = l.scale * s->height;
     l.left = (WIDTH - (double)l.columns * l.panel_width - GAP * ((double)l.columns - 1)) / 2;
@@ -122,27 +144,48 @@ static void put_path(struct pen *p, const struct dot *dot, size_t count) {
     fputs("\"/>\n", p->out);
 }
 
-/* A panel whose upper left corner lies at (left, top) px. */
-static void put_panel(struct pen *p, const struct report_frame *f, double left, double top,
-                      double scale) {
-    double width = scale * p->s->width, height = scale * p->s->height;
-    fprintf(p->out, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n",
-            left, top, width, height, DRAW_GROUND_COLOUR);
+static void put_grains(struct pen *p, const struct report_frame *f, double left, double floor_px,
+                       double scale) {
     fprintf(p->out,
             "<g transform=\"translate(%.2f,%.2f) scale(%.6g,-%.6g)\" fill=\"none\" "
             "stroke-linecap=\"round\">\n",
-            left, top + height, scale * p->unit, scale * p->unit);
+            left, floor_px, scale * p->unit, scale * p->unit);
     place_dots(p, f);
     for (size_t i = 0, end; i < p->s->count; i = end) {
         for (end = i; end < p->s->count && p->dot[end].group == p->dot[i].group; end++)
             ;
         put_path(p, &p->dot[i], end - i);
     }
+    fputs("</g>\n", p->out);
+}
+
+static enum status put_spheres(struct pen *p, size_t frame, double left, double floor_px,
+                               double scale, struct fault *fault) {
+    char prefix[32];
+    snprintf(prefix, sizeof prefix, "f%zu-", frame);
+    fprintf(p->out, "<g transform=\"translate(%.2f,%.2f)\">\n", left, floor_px);
+    enum status status = draw_spheres(p->s, frame, scale, prefix, p->out, fault);
+    fputs("</g>\n", p->out);
+    return status;
+}
+
+/* A panel whose upper left corner lies at (left, top) px. */
+static enum status put_panel(struct pen *p, size_t frame, double left, double top, double scale,
+                             struct fault *fault) {
+    double width = scale * p->s->width, height = scale * p->s->height;
+    enum status status = STATUS_OK;
+    fprintf(p->out, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n",
+            left, top, width, height, draw_ground_colour(p->s));
+    if (p->s->lit)
+        status = put_spheres(p, frame, left, top + height, scale, fault);
+    else
+        put_grains(p, &p->s->frame[frame], left, top + height, scale);
     fprintf(p->out,
-            "</g>\n<path fill=\"none\" stroke=\"%s\" stroke-width=\"%d\" "
+            "<path fill=\"none\" stroke=\"%s\" stroke-width=\"%d\" "
             "d=\"M%.2f,%.2fv%.2fh%.2fv%.2f\"/>\n",
             INK, (int)WALL, left - WALL / 2., top, height + WALL / 2., width + WALL,
             -height - WALL / 2.);
+    return status;
 }
 
 /* -- words ------------------------------------------------------------------ */
@@ -176,10 +219,10 @@ static double put_swatch(FILE *out, double x, double y, const char *colour, cons
 static void put_key(FILE *out, const struct report_sequence *s, const struct layout *l) {
     double y = l->height - 20, x = MARGIN, bar = bar_length(s->width);
     char text[32];
-    for (size_t k = 0; k < KINDS; k++)
-        x = put_swatch(out, x, y, DRAW_KIND_COLOUR[k], s->kind_label[k]);
-    put_swatch(out, x, y, DRAW_GROUND_COLOUR, s->ground_label);
-    snprintf(text, sizeof text, "%g l", bar);
+    for (size_t k = 0; k < REPORT_KINDS && draw_kind_colour(s, k); k++)
+        x = put_swatch(out, x, y, draw_kind_colour(s, k), s->kind_label[k]);
+    put_swatch(out, x, y, draw_ground_colour(s), s->ground_label);
+    snprintf(text, sizeof text, "%g %s", bar, draw_length_unit(s));
     x = WIDTH - MARGIN - l->scale * bar;
     fprintf(out,
             "<path stroke=\"%s\" stroke-width=\"2\" fill=\"none\" "
@@ -209,8 +252,12 @@ static enum status check_frame(const struct report_sequence *s, size_t f, struct
     if (!isfinite(frame->time) || (f > 0 && frame->time <= s->frame[f - 1].time))
         return fault_set(fault, STATUS_BAD_INPUT, "sequence %s: times do not increase at frame %zu",
                          s->name, f);
+    if (s->lit && !frame->depth)
+        return fault_set(fault, STATUS_BAD_INPUT, "sequence %s: no depths in frame %zu", s->name,
+                         f);
     for (size_t i = 0; i < s->count; i++)
-        if (!(fabs(frame->position[2 * i]) < 1e5 && fabs(frame->position[2 * i + 1]) < 1e5))
+        if (!(fabs(frame->position[2 * i]) < 1e5 && fabs(frame->position[2 * i + 1]) < 1e5 &&
+              (!s->lit || fabs(frame->depth[i]) < 1e5)))
             return fault_set(fault, STATUS_BAD_INPUT,
                              "sequence %s: grain %zu has no finite place at %g %s", s->name, i,
                              frame->time, s->time_unit);
@@ -226,7 +273,7 @@ enum status draw_check_sequence(const struct report_sequence *s, struct fault *f
         return fault_set(fault, STATUS_BAD_INPUT, "sequence %s: %zu grains at %zu times: nothing",
                          s->name, s->count, s->frame_count);
     for (size_t i = 0; i < s->count; i++)
-        if (!(s->radius[i] > 0 && s->radius[i] < 1e5) || s->kind[i] >= KINDS)
+        if (!(s->radius[i] > 0 && s->radius[i] < 1e5) || !draw_kind_colour(s, s->kind[i]))
             return fault_set(fault, STATUS_BAD_INPUT,
                              "sequence %s: grain %zu has no radius and kind", s->name, i);
     for (size_t f = 0; f < s->frame_count && !status; f++)
@@ -256,10 +303,11 @@ static enum status pen_open(struct pen *p, const struct report_sequence *s, stru
 static enum status pen_close(struct pen *p, struct sheet *svg, enum status status,
                              struct fault *fault) {
     free(p->dot);
-    if (status)
+    if (!p->out)
         return status;
     fputs("</svg>\n", p->out);
-    status = sheet_close(svg, fault);
+    enum status closed = sheet_close(svg, fault);
+    status = status ? status : closed;
     if (status)
         sheet_free(svg);
     return status;
@@ -272,11 +320,11 @@ enum status draw_sequence(const struct report_sequence *s, struct sheet *svg, st
         return pen_close(&p, svg, status, fault);
     struct layout l = lay_out(s);
     put_head(p.out, s, l.width, l.height);
-    for (size_t f = 0; f < s->frame_count; f++) {
+    for (size_t f = 0; f < s->frame_count && !status; f++) {
         double left = l.left + (double)(f % l.columns) * (l.panel_width + GAP);
         double top = MARGIN + HEAD + (double)(f / l.columns) * (HEAD + l.panel_height + GAP);
         put_time(p.out, s, s->frame[f].time, left, top - 8);
-        put_panel(&p, &s->frame[f], left, top, l.scale);
+        status = put_panel(&p, f, left, top, l.scale, fault);
     }
     put_key(p.out, s, &l);
     return pen_close(&p, svg, status, fault);
@@ -287,13 +335,13 @@ enum status draw_poster(const struct report_sequence *s, struct sheet *svg, stru
     enum status status = pen_open(&p, s, svg, fault);
     if (status)
         return pen_close(&p, svg, status, fault);
-    const struct report_frame *f = &s->frame[s->frame_count / 2];
+    size_t middle = s->frame_count / 2;
     double scale = fmin((POSTER - 2. * MARGIN) / s->width, TALLEST / s->height);
     double width = scale * s->width + 2 * MARGIN, height = scale * s->height + HEAD + 2 * MARGIN;
     double x = width / 2, y = HEAD + MARGIN + scale * s->height / 2;
     put_head(p.out, s, width, height);
-    put_time(p.out, s, f->time, MARGIN, MARGIN + HEAD - 8);
-    put_panel(&p, f, MARGIN, MARGIN + HEAD, scale);
+    put_time(p.out, s, s->frame[middle].time, MARGIN, MARGIN + HEAD - 8);
+    status = put_panel(&p, middle, MARGIN, MARGIN + HEAD, scale, fault);
     fprintf(p.out,
             "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"44\" fill=\"#ffffff\" fill-opacity=\".9\" "
             "stroke=\"%s\" stroke-width=\"3\"/>\n<path d=\"M%.2f,%.2fl38,22l-38,22z\"/>\n",

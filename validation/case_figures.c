@@ -92,6 +92,8 @@ static void check_curve(struct case_reader *r, const struct yaml_node *n,
                         const struct case_figure *f) {
     const struct recipe *recipe =
         f->observable_count > 0 ? r->c->observable[f->observable[0]].recipe : NULL;
+    if (yaml_get(f->node, "of") == NULL)
+        case_read_fault(r, n, "%s: a curve of which observable? name it with `of`", n->key);
     const char *names[RECIPE_MAX_CURVES];
     size_t count = 0;
     if (recipe == NULL)
@@ -157,7 +159,7 @@ static bool read_figure(struct case_reader *r, const struct yaml_node *n, struct
     for (enum tier t = 0; t < TIER_COUNT; t++)
         f->in_tier[t] = case_read_in_tier(n, t);
     read_drawn(r, yaml_get(n, "of"), f);
-    if (recipe->observables != f->observable_count)
+    if (recipe->observables != f->observable_count && !(recipe->optional && !f->observable_count))
         case_read_fault(r, n, "figure %s: `of` must name %zu observables, not %zu", f->recipe,
                         recipe->observables, f->observable_count);
     read_settings(r, n, recipe, f);

@@ -12,5 +12,10 @@ extern const struct figure_recipe figure_curves;             /* figure_curves.c 
 extern const struct figure_recipe figure_fluidization_curve; /* figure_fluidization.c */
 extern const struct figure_recipe figure_bubble_rise;        /* figure_bubbles.c */
 extern const struct figure_recipe figure_outputs;            /* figure_outputs.c */
+extern const struct figure_recipe figure_profiles;           /* figure_profiles.c */
+extern const struct figure_recipe figure_trend_interface;    /* figure_trend.c */
+extern const struct figure_recipe figure_trend_relaxation;   /* figure_trend.c */
+extern const struct figure_recipe figure_sphere_sequence;    /* figure_spheres.c */
+extern const struct figure_recipe figure_sphere_animation;   /* figure_spheres.c */
 
 #endif

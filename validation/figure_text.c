@@ -6,7 +6,18 @@
 /* The units that end a parameter's name, longest first. */
 static const struct {
     const char *ending, *unit;
-} units[] = {{"_l_per_tau", "l/tau"}, {"_tau", "tau"}, {"_l", "l"}};
+} units[] = {{"_m2_per_s2", "m^2/s^2"},
+             {"_l_per_tau", "l/tau"},
+             {"_m_per_s2", "m/s^2"},
+             {"_m_per_s", "m/s"},
+             {"_per_s", "1/s"},
+             {"_tau", "tau"},
+             {"_kg", "kg"},
+             {"_l", "l"},
+             {"_m", "m"},
+             {"_R", "R"},
+             {"_s", "s"},
+             {"_J", "J"}};
 
 static bool ends_in(const char *name, const char *ending) {
     size_t n = strlen(name), m = strlen(ending);

@@ -7,9 +7,13 @@
 
 /* One line a figure recipe. */
 static const struct figure_recipe *const recipes[] = {
-    &figure_settling_curve,     &figure_snapshot, &figure_sequence_panels,
-    &figure_sequence_animation, &figure_curves,   &figure_fluidization_curve,
-    &figure_bubble_rise,        &figure_outputs,  NULL, /* ends the list */
+    &figure_settling_curve,   &figure_snapshot,
+    &figure_sequence_panels,  &figure_sequence_animation,
+    &figure_curves,           &figure_fluidization_curve,
+    &figure_bubble_rise,      &figure_outputs,
+    &figure_profiles,         &figure_sphere_sequence,
+    &figure_sphere_animation, &figure_trend_interface,
+    &figure_trend_relaxation, NULL, /* ends the list */
 };
 
 const struct figure_recipe *const *figure_all(size_t *count) {

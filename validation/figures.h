@@ -53,6 +53,7 @@ struct figure_setting {
 struct figure_recipe {
     const char *name, *title;
     size_t observables; /* how many names `of:` must have; 0: none needed */
+    bool optional;      /* or none at all */
     struct figure_setting setting[CASE_FIGURE_SETTINGS]; /* ends at name == NULL */
     /* Adds figures, pictures and tables to *out.  STATUS_BAD_INPUT when the data
      * do not suit; the report then says so in place of the figure. */
@@ -100,8 +101,9 @@ enum status figure_at_most(const struct figure_input *in, size_t points, struct 
  * "flux" in l/tau: "flux (l/tau)" on an axis, "flux 0.2 l/tau" of a point.  NULL: no memory. */
 const char *figure_axis_text(const char *parameter, struct arena *a);
 const char *figure_value_text(const char *parameter, const char *value, struct arena *a);
-/* What tells this point from the others of `data`: "corrected, flux 0.2 l/tau"; empty for a
- * single point.  The parameter `along` (or NULL) is left out. */
+/* What tells this point from the others of `data`: "reading literal, flux 0.2 l/tau".  Its reading,
+ * if it has one, always stands first; else the text of a single point is empty.  The parameter
+ * `along` (or NULL), or the axis whose labels set it, is left out. */
 const char *figure_point_text(const struct measured_case *data, const struct measured_point *p,
                               const char *along, struct arena *a);
 

@@ -24,7 +24,7 @@ static inline void sequence_sample_fill(struct sequence_sample *s) {
         }
     }
     for (int f = 0; f < SEQUENCE_FRAMES; f++)
-        s->frame[f] = (struct report_frame){1.37 * f, s->position[f]};
+        s->frame[f] = (struct report_frame){.time = 1.37 * f, .position = s->position[f]};
     s->sequence = (struct report_sequence){.name = "time-sequence-1",
                                            .title = "Bed " SAMPLE_HOSTILE,
                                            .caption = "Caption " SAMPLE_HOSTILE,

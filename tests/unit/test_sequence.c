@@ -115,7 +115,7 @@ START_TEST(panels_of_any_number_and_shape_stay_on_the_paper) {
     s.sequence.frame = frame;
     s.sequence.kind_label[1] = "light layers";
     for (int f = 0; f < 24; f++)
-        frame[f] = (struct report_frame){.1 + f, s.position[f % 3]};
+        frame[f] = (struct report_frame){.time = .1 + f, .position = s.position[f % 3]};
     for (size_t n = 1; n <= 24; n++) {
         s.sequence.frame_count = n;
         s.sequence.width = shape[n % 3][0];
@@ -153,7 +153,7 @@ START_TEST(the_papers_bed_six_times_is_small_and_quick) {
         kind[i] = place / 1300 % 2 == 1;
     }
     for (int f = 0; f < 6; f++)
-        frame[f] = (struct report_frame){f, position};
+        frame[f] = (struct report_frame){.time = f, .position = position};
     s.sequence.width = 60;
     s.sequence.height = 84;
     s.sequence.count = GRAINS;
