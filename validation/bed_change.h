@@ -28,6 +28,7 @@ struct bed_change {
     double pull_m_per_s2;        /* reduced gravity g' */
     double heat_m2_per_s2;       /* T/m */
     bool full;                   /* FZ Eq. 1 in place of Eq. 9 */
+    bool inertia;                /* of the wave with pressure */
     bool sharp;                  /* starts as a sharp slab, not at rest */
 };
 

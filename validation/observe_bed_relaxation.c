@@ -54,15 +54,17 @@ static enum status take(const struct series *s, double change_s, double to_s, do
 
 static enum status add_theory(const struct bed_change *c, const struct window *w,
                               struct measurement *out, struct fault *fault) {
-    static const char *const label[] = {"kinematic wave", "wave with pressure"};
+    static const char *const label[] = {"kinematic wave", "with pressure",
+                                        "with pressure and inertia"};
+    struct bed_change own = *c;
     double *length = calloc(w->count, sizeof *length);
     enum status status =
         length ? STATUS_OK : fault_set(fault, STATUS_NO_MEMORY, "no memory for a curve");
-    for (int pressure = 0; !status && pressure < 2; pressure++) {
-        status = relaxation_theory_length(c, pressure, w->time, w->count, length, fault);
+    for (int i = 0; !status && i < 3; i++) {
+        own.inertia = i == 2;
+        status = relaxation_theory_length(&own, i > 0, w->time, w->count, length, fault);
         if (!status)
-            status =
-                measurement_add_curve(out, "L", label[pressure], w->time, length, w->count, fault);
+            status = measurement_add_curve(out, "L", label[i], w->time, length, w->count, fault);
     }
     free(length);
     return status;

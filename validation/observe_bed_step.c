@@ -2,8 +2,9 @@
  *
  * The change and its time are the run's phibar_times_s and phibar_values; samples up to it give the
  * bed at rest.  Centre of mass, top, front and rise come from the profiles (bed_track.h); the
- * same is read off the kinematic wave and the wave with pressure of the run's own law (drive linear
- * or full) at the times of the samples, and told is the largest distance up to theory's end.
+ * same is read off the kinematic wave and the wave with pressure and inertia of the run's own law
+ * (drive linear or full) at the times of the samples, and told is the largest distance up to
+ * theory's end.
  *
  *     time_90, end_time    the centre of mass has gone 90, 98 % of its way to the mean of the last
  * rest_s front_time           the front that rises from the floor meets the top (compaction)
@@ -74,6 +75,7 @@ static enum status open_run(struct run_view *v, const double *settings, struct s
     enum status status = observe_spheres(v, &s->spheres, fault);
     if (!status)
         status = bed_change_read(v, &s->change, &s->change_s, fault);
+    s->change.inertia = true;
     if (!status)
         status = run_view_series(v, "profiles/packing_fraction", &s->profile, fault);
     if (!status)
@@ -283,7 +285,7 @@ static enum status add_curve(const char *name, const char *label, const struct b
 
 static enum status add_curves(const struct step *s, struct measurement *out, struct fault *fault) {
     const struct bed_track *track[] = {&s->seen, &s->kinematic, &s->pressure};
-    static const char *const label[] = {"measured", "kinematic wave", "wave with pressure"};
+    static const char *const label[] = {"measured", "kinematic wave", "with pressure and inertia"};
     enum status status = STATUS_OK;
     for (size_t i = 0; !status && i < 3; i++)
         status = add_curve("centre", label[i], track[i], track[i]->centre_R, out, fault);

@@ -5,7 +5,7 @@
  * of mass has gone the share s of its way.
  *
  * Source:     Fiege & Zippelius, Eqs. 1, 7, 9 and 15; docs/theory.md, S7.
- * Leaves out: inertia, noise; what is NaN could not be solved.
+ * Leaves out: noise; what is NaN could not be solved.
  * Checked by: tests/unit/test_predict_step.c.
  */
 #include "validation/bed_track.h"
@@ -20,8 +20,10 @@ enum { SAMPLES = 400 };
 /* Waves have ended long before: what is sampled, over the end of the linear kinematic one. */
 static const double HORIZON = 2.5;
 
-/* The inputs of STEP, and with heat those of HEAT. */
-static struct bed_change change_of(const double *in, bool heat, bool full) {
+enum wave { KINEMATIC, PRESSURE, INERTIAL };
+
+/* The inputs of STEP, and with pressure those of HEAT. */
+static struct bed_change change_of(const double *in, enum wave wave, bool full) {
     struct bed_change c = {.drag_per_s = in[0],
                            .exponent = in[1],
                            .pull_m_per_s2 = in[2] * in[3] * in[4],
@@ -29,8 +31,9 @@ static struct bed_change change_of(const double *in, bool heat, bool full) {
                            .radius_m = in[8],
                            .before = in[9],
                            .after = in[10],
-                           .full = full};
-    if (heat) {
+                           .full = full,
+                           .inertia = wave == INERTIAL};
+    if (wave != KINEMATIC) {
         c.heat_m2_per_s2 = in[11] * in[12] / in[13];
         c.layer_m = in[14] * in[8];
     }
@@ -80,50 +83,60 @@ static double rate_of(const struct bed_change *c, bool pressure, double window_s
 }
 
 static double kinematic_end(const double *in) {
-    struct bed_change c = change_of(in, false, false);
+    struct bed_change c = change_of(in, KINEMATIC, false);
     return kinematic_wave_end(&c);
 }
 
 static double kinematic_90(const double *in) {
-    struct bed_change c = change_of(in, false, false);
+    struct bed_change c = change_of(in, KINEMATIC, false);
     return time_of(&c, false, 0.9);
 }
 
 static double full_90(const double *in) {
-    struct bed_change c = change_of(in, false, true);
+    struct bed_change c = change_of(in, KINEMATIC, true);
     return time_of(&c, false, 0.9);
 }
 
 static double kinematic_rate(const double *in) {
-    struct bed_change c = change_of(in, false, false);
+    struct bed_change c = change_of(in, KINEMATIC, false);
     return rate_of(&c, false, in[11]);
 }
 
 static double pressure_90(const double *in) {
-    struct bed_change c = change_of(in, true, false);
+    struct bed_change c = change_of(in, PRESSURE, false);
     return time_of(&c, true, 0.9);
 }
 
-static double pressure_98(const double *in) {
-    struct bed_change c = change_of(in, true, false);
+static double pressure_rate(const double *in) {
+    struct bed_change c = change_of(in, PRESSURE, false);
+    return rate_of(&c, true, in[15]);
+}
+
+static double inertial_90(const double *in) {
+    struct bed_change c = change_of(in, INERTIAL, false);
+    return time_of(&c, true, 0.9);
+}
+
+static double inertial_98(const double *in) {
+    struct bed_change c = change_of(in, INERTIAL, false);
     return time_of(&c, true, 0.98);
 }
 
-static double pressure_full_90(const double *in) {
-    struct bed_change c = change_of(in, true, true);
+static double inertial_full_90(const double *in) {
+    struct bed_change c = change_of(in, INERTIAL, true);
     return time_of(&c, true, 0.9);
 }
 
-static double pressure_meeting(const double *in) {
-    struct bed_change c = change_of(in, true, false);
+static double inertial_meeting(const double *in) {
+    struct bed_change c = change_of(in, INERTIAL, false);
     struct bed_track t = {0};
     double time = is_bed(&c) && !follow(&c, true, &t) ? bed_track_meeting(&t) : NAN;
     bed_track_free(&t);
     return time;
 }
 
-static double pressure_rate(const double *in) {
-    struct bed_change c = change_of(in, true, false);
+static double inertial_rate(const double *in) {
+    struct bed_change c = change_of(in, INERTIAL, false);
     return rate_of(&c, true, in[15]);
 }
 
@@ -172,30 +185,42 @@ const struct prediction PREDICT_STEP[PREDICT_STEP_COUNT] = {
      .source = "docs/theory.md, S7",
      .input = {HEAT, NULL},
      .at = pressure_90},
-    {.name = "pressure-time-98",
-     .title = "98 % of the centre of mass' way, wave with pressure, linear law",
-     .unit = "s",
-     .source = "docs/theory.md, S7",
-     .input = {HEAT, NULL},
-     .at = pressure_98},
-    {.name = "pressure-full-time-90",
-     .title = "90 % of the centre of mass' way, wave with pressure, full law",
-     .unit = "s",
-     .source = "docs/theory.md, S7",
-     .input = {HEAT, NULL},
-     .at = pressure_full_90},
-    {.name = "pressure-meeting-time",
-     .title = "When bottom front and top meet, wave with pressure",
-     .unit = "s",
-     .source = "docs/theory.md, S7",
-     .input = {HEAT, NULL},
-     .at = pressure_meeting},
     {.name = "pressure-relaxation-rate",
      .title = "Rate fitted to L(t) of the wave with pressure",
      .unit = "1/s",
      .source = "Fiege & Zippelius, Eq. 15; docs/theory.md, S7",
      .input = {HEAT, "window_s", NULL},
      .at = pressure_rate},
+    {.name = "inertial-time-90",
+     .title = "90 % of the centre of mass' way, with pressure and inertia, linear law",
+     .unit = "s",
+     .source = "docs/theory.md, S7",
+     .input = {HEAT, NULL},
+     .at = inertial_90},
+    {.name = "inertial-time-98",
+     .title = "98 % of the centre of mass' way, with pressure and inertia, linear law",
+     .unit = "s",
+     .source = "docs/theory.md, S7",
+     .input = {HEAT, NULL},
+     .at = inertial_98},
+    {.name = "inertial-full-time-90",
+     .title = "90 % of the centre of mass' way, with pressure and inertia, full law",
+     .unit = "s",
+     .source = "docs/theory.md, S7",
+     .input = {HEAT, NULL},
+     .at = inertial_full_90},
+    {.name = "inertial-meeting-time",
+     .title = "When bottom front and top meet, with pressure and inertia",
+     .unit = "s",
+     .source = "docs/theory.md, S7",
+     .input = {HEAT, NULL},
+     .at = inertial_meeting},
+    {.name = "inertial-relaxation-rate",
+     .title = "Rate fitted to L(t) of the wave with pressure and inertia",
+     .unit = "1/s",
+     .source = "Fiege & Zippelius, Eq. 15; docs/theory.md, S7",
+     .input = {HEAT, "window_s", NULL},
+     .at = inertial_rate},
     {.name = "external-velocity",
      .title = "Speed of the fluid that supports phibar",
      .unit = "m/s",

@@ -27,7 +27,8 @@ static const struct prediction *const PREDICTIONS[] = {
     &PREDICT_INTERFACE[7],   &PREDICT_STEP[0],        &PREDICT_STEP[1],
     &PREDICT_STEP[2],        &PREDICT_STEP[3],        &PREDICT_STEP[4],
     &PREDICT_STEP[5],        &PREDICT_STEP[6],        &PREDICT_STEP[7],
-    &PREDICT_STEP[8],        &PREDICT_STEP[9],
+    &PREDICT_STEP[8],        &PREDICT_STEP[9],        &PREDICT_STEP[10],
+    &PREDICT_STEP[11],
 };
 enum { PREDICTION_COUNT = sizeof PREDICTIONS / sizeof *PREDICTIONS };
 _Static_assert(PREDICTION_COUNT == PREDICT_SETTLING_COUNT + PREDICT_GAS_COUNT +

@@ -12,7 +12,7 @@ enum {
     PREDICT_SPHERES_COUNT = 7,
     PREDICT_SUSPENSION_COUNT = 15,
     PREDICT_INTERFACE_COUNT = 8,
-    PREDICT_STEP_COUNT = 10
+    PREDICT_STEP_COUNT = 12
 };
 
 extern const struct prediction PREDICT_SETTLING[PREDICT_SETTLING_COUNT]; /* predict_settling.c */

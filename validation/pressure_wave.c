@@ -90,7 +90,7 @@ static double upstream(const double *phi, size_t cells, size_t face, bool upward
     return phi[cell] + (upwards ? rise : -rise) / 2;
 }
 
-static void find_fluxes(struct pressure_wave *w) {
+static void find_fluxes(struct pressure_wave *w, double dt_s) {
     double heat = w->change.heat_m2_per_s2;
     for (size_t i = 0; i < w->cells; i++) {
         w->push[i] = heat * w->phi[i] * spheres_compressibility(w->phi[i]);
@@ -100,8 +100,12 @@ static void find_fluxes(struct pressure_wave *w) {
         double mean = layer_mean(w, f);
         double speed = bed_change_speed(&w->change, mean, w->phibar);
         w->mobile[f] = bed_change_mobility(&w->change, mean, w->phibar) / w->cell_m;
-        w->flux[f] = speed * upstream(w->phi, w->cells, f, speed > 0) -
-                     w->mobile[f] * (w->push[f] - w->push[f - 1]);
+        double flux = speed * upstream(w->phi, w->cells, f, speed > 0) -
+                      w->mobile[f] * (w->push[f] - w->push[f - 1]);
+        /* implicit in the friction: what is new has the share gamma dt/(1 + gamma dt) */
+        double slow = w->change.inertia ? w->mobile[f] * w->cell_m / dt_s : 0;
+        w->flux[f] = (slow * w->flux[f] + flux) / (1 + slow);
+        w->mobile[f] /= 1 + slow;
     }
 }
 
@@ -143,9 +147,11 @@ static double step_most(const struct pressure_wave *w) {
 static enum status step(struct pressure_wave *w, double dt_s, double *largest_per_s,
                         struct fault *fault) {
     sum_solid(w);
-    find_fluxes(w);
+    find_fluxes(w, dt_s);
     enum status status = solve(w, dt_s, fault);
     *largest_per_s = 0;
+    for (size_t f = 1; f < w->cells; f++) /* as the implicit step had it */
+        w->flux[f] -= w->mobile[f] * (w->stiff[f] * w->gain[f] - w->stiff[f - 1] * w->gain[f - 1]);
     for (size_t i = 0; !status && i < w->cells; i++) {
         w->phi[i] += w->gain[i];
         *largest_per_s = fmax(*largest_per_s, fabs(w->gain[i]) / dt_s);

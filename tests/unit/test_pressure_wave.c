@@ -64,7 +64,6 @@ START_TEST(without_heat_it_is_the_kinematic_wave) {
         double warm = against_kinematic(before, after, way[i].full, 1, 10);
         double cool = against_kinematic(before, after, way[i].full, 0.1, 4);
         double cold = against_kinematic(before, after, way[i].full, 0.01, 2);
-        printf("%g %g %g\n", warm, cool, cold);
         ck_assert_double_lt(cool, 0.5 * warm);
         ck_assert_double_lt(cold, 0.5 * cool);
         ck_assert_double_lt(cold, 0.01);
@@ -104,6 +103,7 @@ START_TEST(long_after_a_change_it_is_the_hydrostatic_profile) {
     static double phi[BINS];
     struct fault fault = FAULT_NONE;
     struct bed_change c = bed(0.35, 0.3, 1, 10);
+    c.inertia = true; /* which moves nothing that rests */
     struct pressure_wave *w = wave_of(&c, 0.5);
     unit_ok(pressure_wave_settle(w, &fault), &fault);
     double before = pressure_wave_centre(w);
@@ -125,6 +125,28 @@ START_TEST(long_after_a_change_it_is_the_hydrostatic_profile) {
         ck_assert_double_eq_tol(phi[i], profile.fraction[i], 0.002);
     hydrostatic_free(&profile);
     pressure_wave_free(w);
+}
+END_TEST
+
+/* A cold bed all of one speed u starts as u (t - (1 - exp(-gamma t))/gamma); so slow that waves go
+ * some 2R meanwhile. */
+START_TEST(with_inertia_a_bed_starts_as_its_friction_lets_it) {
+    struct fault fault = FAULT_NONE;
+    struct bed_change c = bed(0.45, 0.3, 1e-3, 4);
+    c.pull_m_per_s2 *= 0.05;
+    double gamma = 5 * pow(0.7, -4.65), time = 0.0613, way[2];
+    for (int i = 0; i < 2; i++) {
+        c.inertia = i;
+        struct pressure_wave *w = wave_of(&c, 0.25);
+        double start = pressure_wave_centre(w);
+        pressure_wave_change(w);
+        unit_ok(pressure_wave_advance(w, time, &fault), &fault);
+        way[i] = pressure_wave_centre(w) - start;
+        ck_assert_double_eq_tol(pressure_wave_solid(w), c.load_m, 1e-9 * c.load_m);
+        pressure_wave_free(w);
+    }
+    ck_assert_double_gt(way[0], 0.3 * R);
+    ck_assert_double_eq_tol(way[1] / way[0], 1 - (1 - exp(-gamma * time)) / (gamma * time), 0.015);
 }
 END_TEST
 
@@ -161,6 +183,7 @@ int main(void) {
     const TTest *const tests[] = {without_heat_it_is_the_kinematic_wave,
                                   at_rest_pressure_carries_what_the_flow_does_not,
                                   long_after_a_change_it_is_the_hydrostatic_profile,
+                                  with_inertia_a_bed_starts_as_its_friction_lets_it,
                                   cells_of_half_a_radius_are_enough,
                                   impossible_beds_are_refused,
                                   NULL};
