@@ -54,7 +54,7 @@ static struct measurement travelling(double speed_R_per_s, double rise_per_R) {
 START_TEST(speed_direction_and_spacing_of_planted_stripes_are_found) {
     for (int sign = -1; sign <= 1; sign += 2) {
         struct measurement m = travelling(sign * 173.0, 0);
-        ck_assert_double_eq_tol(got(&m, "speed"), sign * 173 * R, 0.02 * 173 * R);
+        ck_assert_double_eq_tol(got(&m, "speed"), sign * 173 * R, 0.006 * 173 * R);
         ck_assert_double_eq_tol(got(&m, "contrast"), 0.11 / M_SQRT2, 0.02 * 0.11);
         ck_assert_double_eq_tol(got(&m, "packing_fraction"), 0.31, 0.001);
         ck_assert_double_eq_tol(got(&m, "densest"), 0.31 * 1.11, 0.002);
