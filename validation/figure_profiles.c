@@ -11,6 +11,7 @@
  * `theory`       kinematic (no pressure) or pressure, at the same times, of the first seed's
  *                parameters, from the functions that predictions and observables use.
  * `curve`        or a curve of the observable `of`, of the first usable seed.
+ * `bin_R`        whole slabs of the run make a bin of about this height, 1 R if nothing is said.
  *
  * Source:     Fiege & Zippelius, Figs. 1, 4-6.
  * Checked by: tests/unit/test_figure_beds.c.
@@ -27,7 +28,7 @@
 static const char PROFILES[] = "profiles/packing_fraction";
 
 enum { COLOURS = 6, MAX_TIMES = 12, MAX_SEEDS = 256, MAX_SERIES = 3 * MAX_TIMES };
-enum { TIMES, NUMBERS, THEORY, CURVE }; /* settings */
+enum { TIMES, NUMBERS, THEORY, CURVE, BIN_R }; /* settings */
 
 /* One time shown: fraction[seed*bins + bin]. */
 struct moment {
@@ -41,8 +42,9 @@ struct drawing {
     const struct measured_point *point;
     struct arena *arena;
     bool by_collisions, changes;
-    size_t bins, shown; /* shown: up to the highest sphere */
-    double *height_R;   /* height_R[0 .. bins-1], middles of bins */
+    size_t joined;           /* slabs of the run that make a bin */
+    size_t bins, shown;      /* shown: up to the highest sphere */
+    double bin_R, *height_R; /* height_R[0 .. bins-1], middles of bins */
     size_t moment_count, series_count, theories;
     struct moment moment[MAX_TIMES];
     const char *missing;
@@ -58,17 +60,21 @@ static enum status no_memory(struct fault *fault) {
 /* The first seed says how high and how fine. */
 static enum status take_heights(struct drawing *d, const struct figure_bed *b,
                                 const struct series *s, struct fault *fault) {
-    if (s->rank != 1 || s->size == 0 || (d->height_R && s->size != d->bins))
+    double wanted_R = d->in->wanted->setting[BIN_R].number;
+    double slab_R = b->spheres.box_m[2] / b->spheres.radius_m / (double)(s->size ? s->size : 1);
+    size_t joined = (size_t)fmax(1, nearbyint(wanted_R / slab_R));
+    if (s->rank != 1 || s->size < joined || (d->height_R && s->size / joined != d->bins))
         return fault_set(fault, STATUS_BAD_INPUT, "%s: %s has not the bins of other seeds",
                          run_view_path(b->view), PROFILES);
     if (d->height_R)
         return STATUS_OK;
-    double bin_R = b->spheres.box_m[2] / b->spheres.radius_m / (double)s->size;
-    d->bins = s->size;
+    d->joined = joined;
+    d->bins = s->size / joined;
+    d->bin_R = (double)joined * slab_R;
     d->changes = b->changes;
     d->height_R = arena_take(d->arena, d->bins, sizeof *d->height_R);
     for (size_t k = 0; d->height_R && k < d->bins; k++)
-        d->height_R[k] = ((double)k + .5) * bin_R;
+        d->height_R[k] = ((double)k + .5) * d->bin_R;
     for (size_t i = 0; i < d->moment_count; i++)
         if (!(d->moment[i].fraction =
                   arena_take(d->arena, d->bins * d->point->run_count, sizeof(double))))
@@ -128,8 +134,10 @@ static enum status take_seed(struct drawing *d, const struct measured_run *run,
         if (status || !reached)
             continue;
         m->time_s += s->time[m->frame] - b.from_s;
-        memcpy(m->fraction + m->seeds * d->bins, s->value + m->frame * s->size,
-               d->bins * sizeof(double));
+        const double *slab = s->value + m->frame * s->size;
+        for (size_t k = 0; k < d->bins; k++)
+            m->fraction[m->seeds * d->bins + k] =
+                gsl_stats_mean(slab + k * d->joined, 1, d->joined);
         m->seeds++;
     }
     run_view_close(b.view);
@@ -260,7 +268,7 @@ static enum status add_pressure(struct drawing *d, const struct bed_change *chan
                                 struct fault *fault) {
     struct pressure_wave *w = NULL;
     enum status status = pressure_wave_create(change, change->radius_m / 2, &w, fault);
-    if (!status)
+    if (!status && !change->sharp)
         status = pressure_wave_settle(w, fault);
     if (!status)
         pressure_wave_change(w);
@@ -284,7 +292,7 @@ static enum status add_wave(struct drawing *d, const char *theory, struct fault 
     if (status)
         return status;
     status = bed_change_read(b.view, &change, &change_s, fault);
-    double bin_m = b.spheres.box_m[2] / (double)d->bins;
+    double bin_m = d->bin_R * b.spheres.radius_m;
     run_view_close(b.view);
     if (status)
         return status;
@@ -424,6 +432,8 @@ const struct figure_recipe figure_profiles = {
         {{"times", "since phibar changed, or the start (s)", FIGURE_NUMBERS, false, 0, 0, 1e6},
          {"collisions", "or so many of each sphere since then", FIGURE_NUMBERS, false, 0, 0, 1e12},
          {"theory", "kinematic or pressure: waves at the same times", FIGURE_TEXT, false, 0, 0, 0},
-         {"curve", "a curve of the observable, drawn too", FIGURE_CURVE, false, 0, 0, 0}},
+         {"curve", "a curve of the observable, drawn too", FIGURE_CURVE, false, 0, 0, 0},
+         {"bin_R", "slabs of the run are joined to bins of about this (R)", FIGURE_NUMBER, false, 1,
+          0, 1e6}},
     .build = build,
 };

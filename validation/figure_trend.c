@@ -320,6 +320,26 @@ static bool fill_branch(struct drawing *d, size_t first, size_t count, struct re
     return s[0].label != NULL;
 }
 
+static bool same_curve(const struct report_series *a, const struct report_series *b) {
+    bool same = a->count == b->count;
+    for (size_t k = 0; same && k < a->count; k++)
+        same = a->x[k] == b->x[k] && a->y[k] == b->y[k];
+    return same;
+}
+
+/* Theory that knows nothing of the branch is drawn once, in grey: s[branch * (1 + THEORIES)]. */
+static void join_theory(struct report_series *s, size_t branches) {
+    for (size_t c = 1; c <= THEORIES; c++) {
+        bool same = branches > 1;
+        for (size_t b = 1; b < branches; b++)
+            same = same && same_curve(&s[c], &s[b * (1 + THEORIES) + c]);
+        for (size_t b = 0; same && b < branches; b++) {
+            s[b * (1 + THEORIES) + c].colour = -1;
+            s[b * (1 + THEORIES) + c].count = b == 0 ? s[c].count : 0;
+        }
+    }
+}
+
 static enum status draw_trend(struct drawing *d, struct figure_output *out, struct fault *fault) {
     struct report_panel *panel = arena_take(d->arena, 1, sizeof *panel);
     struct report_series *s = arena_take(d->arena, (1 + THEORIES) * (d->branches + 1), sizeof *s);
@@ -332,6 +352,7 @@ static enum status draw_trend(struct drawing *d, struct figure_output *out, stru
         if (!fill_branch(d, i, end - i, &s[count], &highest))
             return no_memory(fault);
     }
+    join_theory(s, count / (1 + THEORIES));
     for (size_t c = 0; c < THEORIES; c++) /* entries of the key */
         if (d->has_theory[c])
             s[count++] = (struct report_series){.label = d->t->theory[c].label,

@@ -20,14 +20,15 @@ static const char text[] =
     "checks:\n"
     "  - {name: value, observable: bed.collisions, expect: 1, margin: 1, kind: model, because: b}\n"
     "figures:\n"
-    "  - {recipe: profiles, times: [0, 0.3, 0.4, 5], points: {reading: two, phibar: 0.37}}\n"
+    "  - {recipe: profiles, bin_R: 0.1, times: [0, 0.3, 0.4, 5], points: {reading: two, phibar: "
+    "0.37}}\n"
     "  - {recipe: profiles, times: [0.33], points: {reading: two, phibar: 0.37}}\n"
     "  - {recipe: profiles, collisions: [5, 20, 22, 100], points: {reading: one, phibar: 0.31}}\n"
-    "  - {recipe: profiles, times: [0, 0.1], caption: Mine.}\n"
+    "  - {recipe: profiles, times: [0, 0.1], bin_R: 1.6, caption: Mine.}\n"
     "  - {recipe: sphere-sequence, times: [0.1, 0.8, 3], points: {reading: two}}\n"
     "  - {recipe: sphere-sequence, points: {reading: two}}\n"
     "  - {recipe: sphere-animation, every_s: 0.2, frames: 3}\n"
-    "  - {recipe: profiles, times: [0, 0.3], theory: kinematic}\n"
+    "  - {recipe: profiles, bin_R: 0.5, times: [0, 0.3], theory: kinematic}\n"
     "  - {recipe: profiles}\n"
     "tiers: {smoke: {}}\n";
 
@@ -89,7 +90,10 @@ START_TEST(a_figure_for_each_point_that_says_its_reading) {
     beds_says(s.out->figure[0].title, "(reading one, phibar 0.31)");
     beds_says(s.out->figure[2].title, "(reading two, phibar 0.37)");
     beds_says(s.out->figure[2].caption, "Mine. Solid: one seed");
-    ck_assert_ptr_null(s.out->figure[2].panel[0].series[0].error);
+    const struct report_series *joined = &s.out->figure[2].panel[0].series[1];
+    ck_assert_ptr_null(joined->error);
+    ck_assert_double_eq_tol(joined->x[1], 4.5 * 26 / BEDS_BINS, 1e-12); /* three slabs a bin */
+    ck_assert_double_eq_tol(joined->y[1], beds_fraction(4, 1, 1), 1e-12);
     ck_assert_int_ne(beds_build(&s, WAVE, &fault), STATUS_OK); /* phibar does not change */
     ck_assert_uint_eq(s.out->figure_count, 3);
     beds_tear_down(&s);
