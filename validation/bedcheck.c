@@ -1,6 +1,6 @@
 /* bedcheck.c -- the program: validation cases run, judged and reported.
  *
- *     bedcheck list | show | recipes | run | check | report | clean | compare | history
+ *     bedcheck list | show | recipes | run | check | report | accept | clean | compare | history
  *
  * Only the command line is read here, one parser a command; command_*.c do the
  * work.  Exit codes: 0 all checks pass, 1 a check failed, 3 inconclusive, 2
@@ -35,6 +35,9 @@ enum key {
     KEY_STALE,
     KEY_REFERENCES,
     KEY_SEEDS,
+    KEY_CASE,
+    KEY_ALL_CHANGED,
+    KEY_REASON,
     KEY_JSON,
     KEY_MARKDOWN,
     KEY_LEVEL,
@@ -46,6 +49,7 @@ enum key {
 struct line {
     struct command_options o;
     const char *pattern[MAX_WORDS], *tag[MAX_WORDS], *skip[MAX_WORDS], *setting[MAX_WORDS];
+    const char *chosen[MAX_WORDS];
     size_t folders; /* how many folders of results are its arguments; 0: they are cases */
     size_t patterns_needed;
 };
@@ -117,6 +121,15 @@ static error_t parse_choice(int key, char *text, struct line *l, struct argp_sta
         return 0;
     case KEY_TIMEOUT:
         o->limit_s = read_number(state, "--timeout", text, 0.001, 1e9, false);
+        return 0;
+    case KEY_CASE:
+        add_word(state, l->chosen, &o->chosen_count, text);
+        return 0;
+    case KEY_ALL_CHANGED:
+        o->all_changed = true;
+        return 0;
+    case KEY_REASON:
+        o->reason = text;
         return 0;
     case KEY_SEEDS:
         o->seed_count = (size_t)read_number(state, "--seeds", text, 1, 100000, true);
@@ -197,7 +210,10 @@ static error_t parse(int key, char *text, struct argp_state *state) {
 #define OPTION_CASES                                                                               \
     { "cases", KEY_CASES, "DIR", 0, "Folder of case files", 0 }
 #define OPTION_REFERENCES                                                                          \
-    { "references", KEY_REFERENCES, "DIR", 0, "Folder of stored references", 0 }
+    {                                                                                              \
+        "references", KEY_REFERENCES, "DIR", 0,                                                    \
+            "Folder of stored references (default with our own cases: ours)", 0                    \
+    }
 #define OPTION_TIER                                                                                \
     { "tier", KEY_TIER, "TIER", 0, "smoke (default), paper or large", 0 }
 #define OPTION_TAG                                                                                 \
@@ -207,6 +223,14 @@ static const struct argp_option list_options[] = {
     OPTION_CASES, OPTION_REFERENCES, OPTION_TIER, OPTION_TAG, {0}};
 static const struct argp_option show_options[] = {OPTION_CASES, OPTION_TIER, {0}};
 static const struct argp_option check_options[] = {OPTION_CASES, OPTION_REFERENCES, {0}};
+static const struct argp_option accept_options[] = {
+    OPTION_CASES,
+    OPTION_REFERENCES,
+    {"case", KEY_CASE, "CASE|GLOB", 0, "Accept this case (may be repeated)", 0},
+    {"all-changed", KEY_ALL_CHANGED, 0, 0, "Accept every case of DIR whose references change", 0},
+    {"reason", KEY_REASON, "TEXT", 0, "Why they change, in one line", 0},
+    {"dry-run", KEY_DRY_RUN, 0, 0, "Show old and new; write nothing", 0},
+    {0}};
 static const struct argp_option no_options[] = {{0}};
 static const struct argp_option clean_options[] = {
     {"stale", KEY_STALE, 0, 0, "Only results of other solver builds than the last run's", 0}, {0}};
@@ -279,6 +303,8 @@ static const struct command commands[] = {
      0, run_check},
     {"report", "DIR", "Judge the results in DIR again and write the report.", check_options, true,
      0, run_report},
+    {"accept", "DIR", "Make results in DIR the stored references.", accept_options, 1, 0,
+     command_accept},
     {"clean", "DIR", "Remove what bedcheck wrote in DIR, and nothing else.", clean_options, 1, 0,
      command_clean},
     {"compare", "OLD NEW", "Compare two folders of results: is it more than scatter?",
@@ -351,12 +377,15 @@ static int perform(const struct command *command, struct line *l) {
     o->tag = l->tag;
     o->skip = l->skip;
     o->setting = l->setting;
+    o->chosen = l->chosen;
+    const char *ci = getenv("CI");
+    o->in_ci = ci != NULL && *ci != '\0' && strcmp(ci, "false") != 0 && strcmp(ci, "0") != 0;
     o->path_list = getenv("PATH");
     o->environment = environ;
+    if (o->cases_folder == NULL && o->references_folder == NULL && command->folders == 0)
+        o->references_folder = references; /* our references are of our cases */
     if (o->cases_folder == NULL && command->folders == 0)
         o->cases_folder = cases;
-    if (o->references_folder == NULL && command->folders == 0)
-        o->references_folder = references;
     if (o->solver == NULL)
         o->solver = solver == NULL ? "bedsim" : solver;
     if (o->jobs == 0)

@@ -28,6 +28,10 @@ struct command_options {
     const char *const *pattern, *const *tag, *const *skip, *const *setting;
     size_t pattern_count, tag_count, skip_count, setting_count;
     enum tier tier;
+    const char *const *chosen; /* accept: --case, patterns of names */
+    size_t chosen_count;
+    const char *reason;      /* accept: --reason */
+    bool in_ci, all_changed; /* CI is set in the environment; accept: --all-changed */
     bool tier_given, dry_run, failed, stop_at_failure, stale;
     size_t jobs;
     size_t seed_count;       /* --seeds; 0: as the cases say */
@@ -46,6 +50,9 @@ int command_recipes(const struct console *c);
 
 /* command_run.c */
 int command_run(const struct command_options *o, const struct console *c);
+
+/* command_accept.c: make results references. */
+int command_accept(const struct command_options *o, const struct console *c);
 
 /* command_check.c: judge again what is there; with `page`, write report/index.html too. */
 int command_check(const struct command_options *o, bool page, const struct console *c);

@@ -2,9 +2,11 @@
 #include "validation/command.h"
 
 #include "validation/figures.h"
+#include "validation/reference.h"
 #include "validation/selection.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static size_t count_runs(const struct case_tier *t) {
@@ -27,6 +29,55 @@ static void list_case(FILE *out, const struct case_file *c) {
     fputs("]\n", out);
 }
 
+/* -- the references of what is listed -------------------------------------------------- */
+
+static enum status check_references_of(const struct selection *s, enum tier tier,
+                                       const char *folder, struct fault *fault) {
+    struct plan *plan = NULL;
+    struct plan_order *order = calloc(s->count + 1, sizeof *order);
+    size_t count = 0;
+    if (order == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "references: out of memory");
+    for (size_t i = 0; i < s->count; i++) {
+        if (s->order[i].file->tier[tier].present)
+            order[count++] = s->order[i];
+    }
+    enum status status = plan_make(order, count, (const struct case_file *const *)s->all,
+                                   s->all_count, tier, 0, &plan, fault);
+    for (size_t i = 0; status == STATUS_OK && i < count; i++) {
+        struct references *r = NULL;
+        struct fault found = FAULT_NONE;
+        if (reference_load(folder, order[i].file->name, &r, &found) == STATUS_OK)
+            reference_check_tier(r, &plan->cases[i], &found);
+        if (found.status != STATUS_OK)
+            fault_add(fault, found.status, "%s", found.text);
+        reference_free(r);
+    }
+    plan_free(plan);
+    free(order);
+    return fault->status;
+}
+
+/* Lines that no check uses, and where all cases are listed tables and curves of none. */
+static enum status check_references(const struct command_options *o, const struct selection *s,
+                                    struct fault *fault) {
+    bool all = o->pattern_count + o->tag_count == 0 && !o->tier_given;
+    for (enum tier t = 0; o->references_folder != NULL && t < TIER_COUNT; t++) {
+        struct fault found = FAULT_NONE;
+        if (check_references_of(s, t, o->references_folder, &found) != STATUS_OK)
+            fault_add(fault, found.status, "%s", found.text);
+    }
+    if (!all || o->references_folder == NULL)
+        return fault->status;
+    const char **name = calloc(s->count + 1, sizeof *name);
+    for (size_t i = 0; name != NULL && i < s->count; i++)
+        name[i] = s->order[i].file->name;
+    if (name != NULL)
+        reference_check_folder(o->references_folder, name, s->count, fault);
+    free(name);
+    return fault->status;
+}
+
 int command_list(const struct command_options *o, const struct console *c) {
     struct fault fault = FAULT_NONE;
     struct selection *s = NULL;
@@ -43,8 +94,10 @@ int command_list(const struct command_options *o, const struct console *c) {
     }
     for (size_t i = 0; i < s->count; i++)
         list_case(c->out, s->order[i].file);
+    if (check_references(o, s, &fault) != STATUS_OK)
+        fprintf(c->errors, "bedcheck: %s\n", fault.text);
     selection_free(s);
-    return 0;
+    return fault.status == STATUS_OK ? 0 : 2;
 }
 
 /* -- show ----------------------------------------------------------------------------- */

@@ -201,10 +201,11 @@ static bool is_clean(const char *line) {
     return true;
 }
 
-static enum status take_line(struct reader *r, char *line) {
+/* The line is cut up; `whole` is the same and stays. */
+static enum status take_line(struct reader *r, char *line, const char *whole) {
     struct references *out = r->out;
     char *field[COLUMNS];
-    struct reference one = {.line = r->line};
+    struct reference one = {.line = r->line, .text = whole};
     if (strncmp(line, "<<<<<<<", 7) == 0 || strncmp(line, ">>>>>>>", 7) == 0 ||
         strcmp(line, "=======") == 0)
         return fault_add(r->fault, STATUS_BAD_INPUT, "%s:%zu: a merge conflict is not solved",
@@ -270,7 +271,7 @@ static enum status read_text(struct reader *r, char *text) {
                                  r->line);
             continue;
         }
-        const char *copy = arena_copy(&r->out->arena, line); /* take_line cuts the line up */
+        const char *copy = arena_copy(&r->out->arena, line);
         if (copy == NULL)
             return fault_set(r->fault, STATUS_NO_MEMORY, "%s: out of memory", r->path);
         if (before != NULL && strcmp(before, copy) >= 0)
@@ -278,7 +279,7 @@ static enum status read_text(struct reader *r, char *text) {
                       r->path, r->line,
                       strcmp(before, copy) == 0 ? "the same as" : "belongs before", r->line - 1);
         before = copy;
-        if (take_line(r, line) == STATUS_NO_MEMORY)
+        if (take_line(r, line, copy) == STATUS_NO_MEMORY)
             return r->fault->status;
     }
     if (!header)
@@ -344,6 +345,8 @@ void reference_free(struct references *r) {
 /* -- writing ------------------------------------------------------------------------------ */
 
 static const char *line_of(struct arena *a, const struct reference *r) {
+    if (r->text != NULL)
+        return r->text;
     bool digest = r->origin == ORIGIN_BITS || r->origin == ORIGIN_CURVE;
     const char *value = r->origin == ORIGIN_BITS    ? arena_text(a, "%s:%s", r->build, r->digest)
                         : r->origin == ORIGIN_CURVE ? r->digest

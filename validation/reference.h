@@ -60,6 +60,7 @@ struct reference {
     const char *commit, *solver_key; /* 40 and 64 hex digits, or "-" */
     const char *date, *reason;       /* YYYY-MM-DD; one line */
     size_t line;                     /* in the file, from 1 */
+    const char *text;                /* the line as it was read; NULL: to be written anew */
 };
 
 struct references { /* of one case */
@@ -87,6 +88,7 @@ bool reference_origin_find(const char *name, enum reference_origin *out);
 struct reference_key {
     enum tier tier;
     const char *point, *observable, *meaning;
+    bool difference; /* "X - law": the ensemble is one of measured - expected */
 };
 
 /* Of check `check` (index in the tier) at a point of the plan; for a fit, the first point of its
@@ -115,6 +117,11 @@ const char *reference_run_meaning(const struct plan_run *run);
  * Lines of tiers that the case has not are found in any tier.  Adds all findings. */
 enum status reference_check_tier(const struct references *r, const struct plan_case *c,
                                  struct fault *fault);
+
+/* Every table of the folder is one of the cases name[0 .. count-1], every curve that a table
+ * names is there, and every file below curves/ is named by one.  Adds all findings. */
+enum status reference_check_folder(const char *folder, const char *const *name, size_t count,
+                                   struct fault *fault);
 
 /* The file's text, lines sorted; STATUS_BAD_INPUT where reading it would refuse it.  free() it. */
 enum status reference_text(const char *path, const struct reference *item, size_t count, char **out,

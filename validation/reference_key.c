@@ -111,6 +111,17 @@ static void write_observable(FILE *out, const struct plan_case *c, const struct 
     fputc('\n', out);
 }
 
+/* A fit over a sweep or over seeds, down to the observable that it reads. */
+static void write_across(FILE *out, const struct plan_case *c, const struct case_across *a) {
+    while (a != NULL) {
+        fprintf(out, "%s along %s%s\n", a->ensemble != NULL ? a->ensemble->name : a->fit->name,
+                a->along, a->exact ? " exact" : "");
+        if (!a->of.across)
+            write_observable(out, c, &a->of);
+        a = a->of.across ? &c->file->across[a->of.index] : NULL;
+    }
+}
+
 static void write_inputs(FILE *out, const struct plan_case *c, const struct case_prediction *p) {
     for (size_t i = 0; p->prediction != NULL && i < PREDICTION_MAX_INPUTS; i++) {
         if (p->prediction->input[i] != NULL && p->input[i].kind == BINDING_OBSERVABLE)
@@ -127,9 +138,9 @@ static void write_meaning(FILE *out, const struct plan_case *c, const struct cas
         if ((a == NULL ? q == point : in_group(c, a, point, q)) && c->point[q].run_count > 0)
             fprintf(out, "%s\n", c->point[q].run[0]->id);
     }
-    if (a != NULL)
-        fprintf(out, "%s along %s%s\n", a->fit->name, a->along, a->exact ? " exact" : "");
-    write_observable(out, c, a == NULL ? &k->number : &a->of);
+    write_across(out, c, a);
+    if (a == NULL)
+        write_observable(out, c, &k->number);
     write_inputs(out, c, &k->per);
     const struct case_expect *e = case_expect_find(&k->expect, p->parameter, p->parameter_count);
     if (a == NULL && e != NULL && e->kind == EXPECT_PREDICTION)
@@ -173,6 +184,11 @@ enum status reference_key_make(const struct plan_case *c, size_t check, size_t p
                                   .point = point_name(name),
                                   .observable = observable_name(c, k, p, a),
                                   .meaning = make_meaning(c, k, point, a)};
+    const char *varying =
+        across != NULL
+            ? ""
+            : varying_name(c, case_expect_find(&k->expect, p->parameter, p->parameter_count), a);
+    out->difference = varying != NULL && *varying != '\0';
     return out->point == NULL || out->observable == NULL || out->meaning == NULL
                ? fault_set(fault, STATUS_NO_MEMORY, "references: out of memory")
                : STATUS_OK;

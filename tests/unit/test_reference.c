@@ -57,7 +57,7 @@ START_TEST(lines_are_found_by_their_whole_key) {
     const char *folder = write_table(good);
     unit_ok(reference_load(folder, "fake/steady", &r, &fault), &fault);
     ck_assert_uint_eq(r->count, 6);
-    struct reference_key key = {TIER_SMOKE, "height_l=3.7", "bed.speed", "1a2b3c4d"};
+    struct reference_key key = {TIER_SMOKE, "height_l=3.7", "bed.speed", "1a2b3c4d", false};
     const struct reference *line = reference_find(r, &key, ORIGIN_ENSEMBLE);
     ck_assert_ptr_nonnull(line);
     ck_assert_double_eq(line->value, -7.03e-5);
@@ -185,6 +185,7 @@ START_TEST(what_is_written_is_sorted_and_read_back_bit_by_bit) {
     for (size_t i = 0; i < 6; i++)
         item[i] = r->item[(i * 5 + 3) % 6]; /* out of order */
     item[3].value = 0.1 + 0.2;              /* the first line of the file */
+    item[3].text = NULL;
     unit_ok(reference_text("x.tsv", item, 6, &text, &fault), &fault);
     unit_write(unit_path(folder, "fake/steady.tsv"), text);
     unit_ok(reference_load(folder, "fake/steady", &again, &fault), &fault);
@@ -210,6 +211,8 @@ START_TEST(nothing_is_written_that_reading_would_refuse) {
     bad[1].reason = "two\nlines";
     bad[2].seeds = 31;
     bad[3].deviation = 0;
+    for (size_t i = 0; i < 4; i++)
+        bad[i].text = NULL;
     for (size_t i = 0; i < 4; i++) {
         fault = FAULT_NONE;
         ck_assert_int_eq(reference_text("x.tsv", &bad[i], 1, &text, &fault), STATUS_BAD_INPUT);
