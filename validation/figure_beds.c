@@ -99,7 +99,7 @@ enum status figure_bed_open(const struct measured_run *run, struct figure_bed *o
     struct fault absent = FAULT_NONE; /* an empty list has no attribute */
     const double *change;
     size_t changes = 0;
-    *out = (struct figure_bed){NULL};
+    *out = (struct figure_bed){.view = NULL};
     enum status status = run_view_open(run->run_path, run->result_path, &out->view, fault);
     if (!status)
         status = observe_spheres(out->view, &out->spheres, fault);
