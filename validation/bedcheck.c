@@ -94,8 +94,6 @@ static void take_argument(struct argp_state *state, struct line *l, const char *
 static void check_arguments(struct argp_state *state, const struct line *l) {
     if (l->folders > 0 && l->o.out == NULL)
         argp_error(state, "which folder of results?");
-    if (l->folders == 2 && l->o.other == NULL)
-        argp_error(state, "compare %s with which folder?", l->o.out);
     if (l->o.pattern_count < l->patterns_needed)
         argp_error(state, "which case?");
     if (l->o.failed && l->o.pattern_count > 0)
@@ -235,6 +233,7 @@ static const struct argp_option no_options[] = {{0}};
 static const struct argp_option clean_options[] = {
     {"stale", KEY_STALE, 0, 0, "Only results of other solver builds than the last run's", 0}, {0}};
 static const struct argp_option compare_options[] = {
+    OPTION_REFERENCES,
     {"json", KEY_JSON, 0, 0, "For programs", 0},
     {"markdown", KEY_MARKDOWN, 0, 0, "For a pull request", 0},
     {"level", KEY_LEVEL, "L", 0,
@@ -307,7 +306,7 @@ static const struct command commands[] = {
      command_accept},
     {"clean", "DIR", "Remove what bedcheck wrote in DIR, and nothing else.", clean_options, 1, 0,
      command_clean},
-    {"compare", "OLD NEW", "Compare two folders of results: is it more than scatter?",
+    {"compare", "[OLD] NEW", "Compare results with others, or with the references.",
      compare_options, 2, 0, command_compare},
     {"history", "[DIR]", "Keep and draw the trends of many commits.", history_options, 0, 0,
      command_history},

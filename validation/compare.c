@@ -69,6 +69,8 @@ static bool runs_equal(const struct results_row *a, const struct results_row *b)
 
 /* Why the two cannot be compared, or NULL. */
 static const char *obstacle(const struct results_row *a, const struct results_row *b) {
+    if (a->reference)
+        return same_text(a->meaning, b->meaning) ? NULL : "the reference is of another case text";
     if (!same_questions(a, b))
         return "other case text: its runs are other ones";
     if (!same_text(a->meaning, b->meaning) || strcmp(a->observable, b->observable) != 0)
@@ -309,7 +311,9 @@ enum status compare_results(const struct results *old, const struct results *new
     c->old = old;
     c->new = new;
     c->level = level;
-    if (strcmp(old->tier, new->tier) != 0) {
+    if (old->references && old->row_count == 0) {
+        c->refusal = "there is no ensemble among the references of these cases at this tier";
+    } else if (strcmp(old->tier, new->tier) != 0) {
         c->refusal = arena_text(&c->arena, "the tiers differ: %s and %s", old->tier, new->tier);
         status = c->refusal == NULL ? no_memory(&k) : STATUS_OK;
     } else {

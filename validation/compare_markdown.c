@@ -170,22 +170,36 @@ static enum status put_bits(struct page *p, const struct compare_runs *runs) {
     return status;
 }
 
-enum status compare_write_markdown(const struct compare_view *v, FILE *out, struct fault *fault) {
+static enum status put_page(struct page *p, const struct compare_view *v) {
     const struct compared *c = v->rows;
-    struct page p = {out, fault};
-    fprintf(out, "# %s\n\n", compare_words_conclusion(c));
-    compare_words_counts(out, c);
-    fprintf(out, ".\n\n");
-    put_side(out, "old", c->old);
-    put_side(out, "new", c->new);
-    enum status status = put_rows(&p, c, true, CHANGED_LIMIT);
+    fprintf(p->out, "# %s\n\n", compare_words_conclusion(c));
+    compare_words_counts(p->out, c);
+    fprintf(p->out, ".\n\n");
+    put_side(p->out, "old", c->old);
+    put_side(p->out, "new", c->new);
+    enum status status = put_rows(p, c, true, CHANGED_LIMIT);
     if (status == STATUS_OK && v->runs != NULL) {
-        put_costs(out, v->runs);
-        status = put_bits(&p, v->runs);
+        put_costs(p->out, v->runs);
+        status = put_bits(p, v->runs);
     }
     if (status == STATUS_OK)
-        status = put_list(&p, "Added checks", c->added, c->added_count);
+        status = put_list(p, c->old->references ? "Checks without a reference" : "Added checks",
+                          c->added, c->added_count);
     if (status == STATUS_OK)
-        status = put_list(&p, "Removed checks", c->removed, c->removed_count);
-    return status == STATUS_OK ? put_rows(&p, c, false, ALL_LIMIT) : status;
+        status = put_list(p, "Removed checks", c->removed, c->removed_count);
+    return status == STATUS_OK ? put_rows(p, c, false, ALL_LIMIT) : status;
+}
+
+/* Put together in memory: a pipe does not tell how long it is. */
+enum status compare_write_markdown(const struct compare_view *v, FILE *out, struct fault *fault) {
+    struct sheet sheet;
+    enum status status = sheet_open(&sheet, fault);
+    if (status != STATUS_OK)
+        return status;
+    struct page p = {sheet.out, fault};
+    status = put_page(&p, v);
+    if (status == STATUS_OK && (status = sheet_close(&sheet, fault)) == STATUS_OK)
+        fwrite(sheet.text, 1, sheet.length, out);
+    sheet_free(&sheet);
+    return status;
 }

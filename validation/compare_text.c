@@ -8,6 +8,11 @@
 #include <string.h>
 
 static void put_side(FILE *out, const char *side, const struct results *r) {
+    if (r->references) {
+        fprintf(out, "%s  %s: references, tier %s, of commit %.12s, accepted until %s\n", side,
+                r->folder, r->tier, r->commit, r->started);
+        return;
+    }
     fprintf(out, "%s  %s: tier %s, solver of commit %.12s (%s), started %s%s%s\n", side, r->folder,
             r->tier, r->commit, r->dirty, r->started, r->modification == NULL ? "" : ", MODIFIED: ",
             r->modification == NULL ? "" : r->modification);
@@ -89,7 +94,7 @@ void compare_write_text(const struct compare_view *v, FILE *out) {
     put_side(out, "old", c->old);
     put_side(out, "new", c->new);
     put_rows(out, c);
-    put_list(out, "added", c->added, c->added_count);
+    put_list(out, c->old->references ? "no reference" : "added", c->added, c->added_count);
     put_list(out, "removed", c->removed, c->removed_count);
     put_skipped(out, "old", c->old);
     put_skipped(out, "new", c->new);

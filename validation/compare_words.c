@@ -159,8 +159,10 @@ void compare_words_bits(FILE *out, const struct compare_case_bits *b) {
         fprintf(out, "%zu runs unchanged", b->runs - b->unknown);
         return;
     }
-    fprintf(out, "%zu of %zu runs differ: ", b->differ, b->runs);
-    put_sample(out, "first", &b->first);
+    fprintf(out, "%zu of %zu runs differ", b->differ, b->runs);
+    if (!b->first.found)
+        return;
+    put_sample(out, ": first", &b->first);
     if (b->parted.found)
         put_sample(out, "; parted", &b->parted);
     else

@@ -137,6 +137,7 @@ static void read_row(struct reader *r, const struct yaml_node *n, struct results
                                 .kind = text_of(r, n, "kind", false),
                                 .verdict = text_of(r, n, "verdict", false),
                                 .reason = text_of(r, n, "reason", true),
+                                .key = text_of(r, n, "key", true),
                                 .meaning = text_of(r, n, "meaning", true),
                                 .measured = real_of(r, n, "measured"),
                                 .uncertainty = real_of(r, n, "uncertainty"),

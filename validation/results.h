@@ -22,8 +22,9 @@
 struct results_row {
     const char *case_name, *point, *check, *observable, *unit;
     const char *comparison, *kind, *verdict, *reason;
-    const char *meaning; /* of its runs and observables, as reference_key has it; NULL: none */
-    size_t twin;         /* how many rows before it have its case, check and point */
+    const char *key, *meaning; /* as reference_key has them: observable, digest; NULL: none */
+    bool reference;            /* not a row of results, but what is stored as its reference */
+    size_t twin;               /* how many rows before it have its case, check and point */
     double measured, uncertainty, expected, expected_uncertainty, tolerance; /* NaN: null */
     double freedom; /* degrees of freedom of the uncertainty; INFINITY where it is declared */
     size_t run_count, value_count;
@@ -47,6 +48,7 @@ struct results {
     const char *commit, *dirty; /* of the solver's build; "unknown" where it does not say */
     const char *modification;   /* NULL: not MODIFIED */
     struct results_counts counts;
+    bool references; /* the stored references in the place of results */
     size_t row_count, skipped_count;
     const struct results_row *row;
     const struct results_skipped *skipped;
