@@ -50,9 +50,21 @@ double bed_rest_height_R(const double input[BED_INPUTS]);
  * inelastic collisions; else one temperature for all, and the pressure of elastic spheres. */
 enum status bed_rest_solve(const double input[BED_INPUTS], bool local,
                            struct hydrostatic_profile *out, struct fault *fault);
+/* The same for temperatures (over T of the inputs) measured at packing fractions, with weights: ln
+ * t is a cubic in phi through them, by least squares.  Eight or more, [0 .. count-1]. */
+struct bed_rest_measured {
+    const double *fraction, *temperature, *weight;
+    size_t count;
+};
+enum status bed_rest_balance(const double input[BED_INPUTS], const struct bed_rest_measured *m,
+                             struct hydrostatic_profile *out, struct fault *fault);
 /* Height and width of the solved profile, read with above_R and plateau_free. */
 enum status bed_rest_fit(const double input[BED_INPUTS], const struct hydrostatic_profile *profile,
                          struct interface_fit *out, struct fault *fault);
+
+/* The temperature over T where the packing fraction is this, from the local balance of powers (1).
+ */
+double bed_rest_temperature(const double input[BED_INPUTS], double fraction);
 
 /* Heights (R) between which the bulk is measured: the middle fifth of bed_rest_height_R. */
 void bed_rest_bulk(const double input[BED_INPUTS], double *low_R, double *high_R);

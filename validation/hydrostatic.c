@@ -46,22 +46,17 @@ double hydrostatic_bulk_of(const struct hydrostatic_bed *bed, double fraction) {
     return p;
 }
 
-static double look_up(const struct hydrostatic_bed *bed, double fraction) {
-    const double *x = bed->table_fraction, *t = bed->table_temperature;
-    size_t last = bed->table_count - 1, k = 1;
-    if (fraction <= x[0] || last == 0)
-        return t[0];
-    if (fraction >= x[last])
-        return t[last];
-    while (x[k] < fraction)
-        k++;
-    return t[k - 1] + (t[k] - t[k - 1]) * (fraction - x[k - 1]) / (x[k] - x[k - 1]);
+static double measured(const struct hydrostatic_bed *bed, double fraction) {
+    double x = fmin(fraction, bed->measured_to), sum = 0;
+    for (size_t i = HYDROSTATIC_TERMS; i-- > 0;)
+        sum = sum * x + bed->c[i];
+    return exp(sum);
 }
 
 /* s^2 (1 + H r s) = 1 + H, s = sqrt(t), r = p chi(p) over that of the bulk at phibar. */
 double hydrostatic_temperature(const struct hydrostatic_bed *bed, double bulk) {
-    if (bed->table_count)
-        return look_up(bed, hydrostatic_fraction_of(bed, bulk));
+    if (bed->measured_to > 0)
+        return measured(bed, hydrostatic_fraction_of(bed, bulk));
     if (!bed->local_temperature)
         return 1;
     double home = hydrostatic_bulk_of(bed, bed->phibar), h = bed->heat_ratio, s = 1;

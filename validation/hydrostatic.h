@@ -27,7 +27,7 @@
  * kicks of the run: t (2 gamma + (1/3) f(p, T t)(1 - eps^2)) is the same at all heights, f Enskog's
  * rate, and t = 1 at p of phi = phibar.  Conduction of heat, left out, would spread it.
  *
- * or is looked up in a table of measured temperatures over packing fractions, which leaves the
+ * or is a smooth law through temperatures measured at packing fractions, which leaves the
  * balance of forces alone to be tested.  Collisions of restitution eps push (1 + eps)/2 as hard, so
  * that
  *
@@ -50,6 +50,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+enum { HYDROSTATIC_TERMS = 4 };
+
 struct hydrostatic_bed {
     double phibar;   /* (1) */
     double a_R;      /* T/(m b') over R (R) */
@@ -61,10 +63,9 @@ struct hydrostatic_bed {
     /* Local balance of powers; heat_ratio = (1/3)(1 - eps^2) f(phibar, T)/(2 gamma) (1) */
     bool local_temperature;
     double heat_ratio;
-    /* Measured: t at fractions phi rising, straight between, constant beyond; count 0: none.
-     * Borrowed. */
-    const double *table_fraction, *table_temperature; /* [0 .. table_count-1] (1) */
-    size_t table_count;
+    /* Measured: ln t = sum c[i] phi^i up to phi = measured_to, constant beyond; measured_to 0:
+     * none. */
+    double c[HYDROSTATIC_TERMS], measured_to;
     double restitution; /* of (3); 0: elastic */
     double spacing_R;   /* 0: chosen; else made to divide Delta/2 */
 };
@@ -87,7 +88,7 @@ double hydrostatic_bulk_of(const struct hydrostatic_bed *bed, double fraction);
 double hydrostatic_fraction_of(const struct hydrostatic_bed *bed, double bulk);
 /* d(p) in R (2). */
 double hydrostatic_depth_R(double bulk);
-/* t(p): 1 without local_temperature and table. */
+/* t(p): 1 where nothing says otherwise. */
 double hydrostatic_temperature(const struct hydrostatic_bed *bed, double bulk);
 
 #endif

@@ -7,14 +7,18 @@
  * 4 R of the floor, and the middle of its slab.  Drift: the centre of mass in the later half of the
  * window less that in the earlier.  Bulk: the middle fifth of N V/(Wx Wy phibar).
  *
+ * Balanced: hydrostatics (hydrostatic.h) with the vertical temperature that was measured at each
+ * packing fraction of the interface, in place of a law for it, and the pressure of inelastic
+ * collisions: a test of the balance of forces alone.
+ *
  * bed-formation: how far the profile is from the stationary one,
  *
  *     D^2(t) = integral of (phi(z,t) - phi_s(z))^2 dz,   phi_s the mean from settled_s on,
  *
- * averaged over blocks of block_s.  D^2 of a stationary profile is not 0 but the noise of a block;
- * the profile is stationary from the first block on that is not above the settled blocks' mean by
- * more than three of their standard deviations.  Beside it: when sigma of a block's mean
- * profile first reaches .9 of the settled one.
+ * of means over blocks of block_s and slabs of slab_R.  D^2 of a stationary profile is not 0 but
+ * the noise of a block; the profile is stationary from the first block on that is not above the
+ * settled blocks' mean by more than three of their standard deviations.  Beside it: when sigma of a
+ * block's mean profile first reaches .9 of the settled one.
  *
  * Source:     Fiege & Zippelius, Section IV A.
  * Leaves out: beds whose phibar changes.
@@ -39,6 +43,9 @@ enum {
     BULK,
     BOTTOM_PEAK,
     PEAK_HEIGHT,
+    BALANCED_SIGMA,
+    BALANCED_HEIGHT,
+    BALANCE,
     DRIFT,
     TEMPERATURE,
     TEMPERATURE_ZZ,
@@ -48,7 +55,7 @@ enum {
     ABOVE,
     FREE_PLATEAU
 };
-enum { BLOCK_S = 0, SETTLED_S, FORMATION_ABOVE_R };
+enum { BLOCK_S, SETTLED_S, FORMATION_ABOVE_R, SLAB_R };
 enum { TIME, FORMED_COLLISIONS, SIGMA_TIME, SETTLED_SIGMA, FLOOR, BLOCK_COUNT };
 enum { BLOCKS_MAX = 400 };
 
@@ -175,6 +182,54 @@ static enum status measure_motion(struct run_view *v, const struct bed *b, const
     return STATUS_OK;
 }
 
+/* Packing fraction, vertical temperature over T, and spheres, in slabs of 1 R from the middle of
+ * the bed up to a packing fraction of .004: rows[0 .. n-1], rows[bins ..], rows[2 bins ..]. */
+static size_t tabulate(const struct bed *b, const struct window *w,
+                       const struct sphere_profile *vertical, double *rows) {
+    double target = b->input[BED_THERMAL_J] * b->input[BED_TEMPERATURE_SCALE];
+    double z = bed_rest_height_R(b->input) / 2, top = b->fraction.height_R[b->fraction.bins - 1];
+    size_t n = 0, bins = b->fraction.bins;
+    for (; z < top && n < bins; z++) {
+        double phi = sphere_profile_level(&b->fraction, NULL, w->first, w->last, z, z + 1);
+        double t = sphere_profile_level(vertical, &b->fraction, w->first, w->last, z, z + 1);
+        if (!(t > 0) || phi < 0.004)
+            continue;
+        rows[n] = rows[2 * bins + n] = phi;
+        rows[bins + n++] = t / target;
+    }
+    return n;
+}
+
+static enum status measure_balance(const struct bed *b, const struct window *w,
+                                   const struct sphere_profile *vertical, struct measurement *out,
+                                   struct fault *fault) {
+    struct hydrostatic_profile solved;
+    struct interface_fit fit;
+    struct fault none = FAULT_NONE;
+    size_t bins = b->fraction.bins;
+    double *rows = malloc(3 * bins * sizeof *rows);
+    if (!rows)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a table of temperatures");
+    struct bed_rest_measured m = {rows, rows + bins, rows + 2 * bins,
+                                  tabulate(b, w, vertical, rows)};
+    enum status status = bed_rest_balance(b->input, &m, &solved, &none);
+    free(rows);
+    if (!status)
+        status = bed_rest_fit(b->input, &solved, &fit, &none);
+    if (status) {
+        observe_none(out, BALANCED_SIGMA, "%s", none.text);
+        observe_none(out, BALANCED_HEIGHT, "%s", none.text);
+        hydrostatic_free(&solved);
+        return STATUS_OK;
+    }
+    out->value[BALANCED_SIGMA] = fit.sigma_R;
+    out->value[BALANCED_HEIGHT] = fit.height_R;
+    status = measurement_add_curve(out, "balanced", "hydrostatic, measured temperature",
+                                   solved.height_R, solved.fraction, solved.count, fault);
+    hydrostatic_free(&solved);
+    return status;
+}
+
 static enum status measure_temperature(struct run_view *v, const struct bed *b,
                                        const struct window *w, struct measurement *out,
                                        struct fault *fault) {
@@ -187,7 +242,11 @@ static enum status measure_temperature(struct run_view *v, const struct bed *b,
         if (status)
             return status;
         level[i] = sphere_profile_level(&t, &b->fraction, w->first, w->last, low, high);
+        if (i == 1)
+            status = measure_balance(b, w, &t, out, fault);
         sphere_profile_close(&t);
+        if (status)
+            return status;
     }
     out->value[TEMPERATURE] = (2 * level[0] + level[1]) / 3;
     out->value[TEMPERATURE_ZZ] = level[1];
@@ -242,6 +301,7 @@ static enum status measure_interface(struct run_view *v, const double *settings,
         status = measure_temperature(v, &b, &w, out, fault);
     if (!status)
         status = measure_profile(&b, &w, blocks, out, fault);
+    out->value[BALANCE] = out->value[SIGMA] / out->value[BALANCED_SIGMA];
     sphere_profile_close(&b.fraction);
     return status;
 }
@@ -256,10 +316,17 @@ struct formation {
     double *time, *apart;  /* [0 .. blocks-1]: the block's middle (s), D^2 (R) */
 };
 
-static double distance_square(const struct sphere_profile *p, const double *a, const double *b) {
+/* Of means over `slab` bins: the noise of thin slabs, which says nothing of the bed, averages out.
+ */
+static double distance_square(const struct sphere_profile *p, size_t slab, const double *a,
+                              const double *b) {
     double sum = 0;
-    for (size_t k = 0; k < p->bins; k++)
-        sum += (a[k] - b[k]) * (a[k] - b[k]) * p->bin_R;
+    for (size_t k = 0; k + slab <= p->bins; k += slab) {
+        double apart = 0;
+        for (size_t i = k; i < k + slab; i++)
+            apart += (a[i] - b[i]) / (double)slab;
+        sum += apart * apart * p->bin_R * (double)slab;
+    }
     return sum;
 }
 
@@ -282,12 +349,13 @@ static enum status divide(struct run_view *v, const struct sphere_profile *p,
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu profiles", f->blocks);
     f->stationary = f->profile + f->blocks * p->bins;
     f->apart = f->time + f->blocks;
+    size_t slab = (size_t)fmax(1, round(settings[SLAB_R] / p->bin_R));
     sphere_profile_mean(p, f->settled * f->frames, s->frames - 1, f->stationary);
     for (size_t i = 0; i < f->blocks; i++) {
         size_t first = i * f->frames, last = first + f->frames - 1;
         sphere_profile_mean(p, first, last, f->profile + i * p->bins);
         f->time[i] = (s->time[first] + s->time[last]) / 2;
-        f->apart[i] = distance_square(p, f->profile + i * p->bins, f->stationary);
+        f->apart[i] = distance_square(p, slab, f->profile + i * p->bins, f->stationary);
     }
     return STATUS_OK;
 }
@@ -370,8 +438,8 @@ static enum status measure_formation(struct run_view *v, const double *settings,
 static const char *const INTERFACE_DATASETS[] = {
     "profiles/packing_fraction", "profiles/temperature_xy",    "profiles/temperature_zz",
     "observables/collisions",    "observables/centre_of_mass", NULL};
-static const char *const INTERFACE_CURVES[] = {"profile", "fit", "hydrostatic", "hydrostatic-local",
-                                               NULL};
+static const char *const INTERFACE_CURVES[] = {"profile",           "fit",      "hydrostatic",
+                                               "hydrostatic-local", "balanced", NULL};
 static const char *const FORMATION_DATASETS[] = {"profiles/packing_fraction",
                                                  "observables/collisions", NULL};
 static const char *const FORMATION_CURVES[] = {"sigma", "apart", NULL};
@@ -396,6 +464,9 @@ const struct recipe recipe_bed_interface = {
                {"bulk", "1", "packing fraction of the middle fifth"},
                {"bottom_peak", "1", "largest packing fraction within 4 R of the floor"},
                {"peak_height", "R", "middle of the slab that has it"},
+               {"balanced_sigma", "R", "of the profile that balances the measured temperatures"},
+               {"balanced_height", "R", "of the profile that balances the measured temperatures"},
+               {"balance", "1", "sigma over balanced_sigma"},
                {"drift", "R", "of the centre of mass, later half less earlier half"},
                {"temperature", "J", "of the middle fifth, about the slabs' mean velocities"},
                {"temperature_zz", "J", "its vertical part"},
@@ -415,7 +486,8 @@ const struct recipe recipe_bed_formation = {
     .datasets = FORMATION_DATASETS,
     .setting = {{"block_s", "s", "length of a block", 0.04, 0, 1e9},
                 {"settled_s", "s", "stationary from here on", 1, 0, 1e9},
-                {"above_R", "R", "heights below are not fitted", 10, 0, 1e6}},
+                {"above_R", "R", "heights below are not fitted", 10, 0, 1e6},
+                {"slab_R", "R", "slabs that profiles are compared in", 4, 0, 1e6}},
     .output = {{"time", "s", "first block as near to the stationary profile as settled ones"},
                {"collisions_per_particle", "1", "2 N_coll/N by then"},
                {"sigma_time", "s", "when sigma first reaches .9 of the settled one"},

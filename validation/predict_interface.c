@@ -72,6 +72,10 @@ static double bulk_local(const double *in) {
     return solved(in, true, 2);
 }
 
+static double temperature(const double *in) {
+    return bed_rest_temperature(in, in[BED_INPUTS]);
+}
+
 /* drag_per_s, phibar, exponent, packing_fraction, thermal_energy_J, radius_m, mass_kg, restitution
  */
 static double diffusion(const double *in) {
@@ -124,6 +128,12 @@ const struct prediction PREDICT_INTERFACE[PREDICT_INTERFACE_COUNT] = {
      .source = "docs/theory.md, S6",
      .input = {BED_REST_NAMES, NULL},
      .at = bulk_local},
+    {.name = "hydrostatic-temperature",
+     .title = "Temperature at a packing fraction, from the local balance of powers",
+     .unit = "T",
+     .source = "docs/theory.md, S6",
+     .input = {BED_REST_NAMES, "packing_fraction", NULL},
+     .at = temperature},
     {.name = "bed-diffusion",
      .title = "Diffusivity across the bed's bulk, drag and collisions",
      .unit = "m^2/s",

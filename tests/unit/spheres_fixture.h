@@ -4,16 +4,19 @@
 
 #include "tests/unit/fake_run.h"
 
-/* The box as sides in radii; `more`: further lines of parameters. */
+/* The box as sides in radii; boundary: hard, periodic, or sides for periodic ones over a hard
+ * floor; `more`: further lines of parameters. */
 static inline struct fake_run spheres_start(int count, double radius_m, const double side_R[3],
                                             const char *boundary, const char *more) {
     char text[4096];
+    bool sides = !strcmp(boundary, "sides");
+    const char *across = sides ? "periodic" : boundary, *up = sides ? "hard" : boundary;
     snprintf(text, sizeof text,
              "  particles: %d\n  radius_m: %.17g\n  mass_kg: 2.3e-6\n  thermal_energy_J: 1.7e-9\n"
              "  packing_fraction: 0.3\n  width_x_R: %.17g\n  width_y_R: %.17g\n  height_R: %.17g\n"
              "  boundary_x: %s\n  boundary_y: %s\n  boundary_z: %s\n  temperature_scale: 1.3\n"
              "  drag_per_s: 4.9\n  phibar: 0.37\n  exponent: 4.65\n  phibar_times_s: []\n%s",
-             count, radius_m, side_R[0], side_R[1], side_R[2], boundary, boundary, boundary, more);
+             count, radius_m, side_R[0], side_R[1], side_R[2], across, across, up, more);
     return fake_start(text);
 }
 
