@@ -65,11 +65,11 @@ static enum status fit_peak(const struct measurement *const *m, size_t count,
     double *t = calloc(2 * count, sizeof *t);
     if (t == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "peak of mean: out of memory");
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count && count > 1; i++)
         find_peak(m, count, i, &t[i], &t[count + i]);
     find_peak(m, count, count, &value[0], &value[1]);
-    uncertainty[0] = jackknife(t, count);
-    uncertainty[1] = jackknife(t + count, count);
+    for (size_t k = 0; k < 2 && count > 1; k++)
+        uncertainty[k] = jackknife(t + k * count, count);
     free(t);
     return STATUS_OK;
 }

@@ -31,6 +31,8 @@ struct ensemble {
     struct recipe_output output[ENSEMBLE_MAX_OUTPUTS]; /* ends at name == NULL */
     size_t min_seeds;
     /* m[0 .. count-1]: one measurement a seed, all usable, with the curves asked for.
+     * count is below min_seeds where a seed is left out of the fewest, or --seeds asked for
+     * fewer: the value is wanted all the same, the uncertainty may stay NaN.
      * settings: of the observable, in its recipe's order.  value[i], uncertainty[i] for
      * each output, NaN on entry; what stays NaN is inconclusive.  STATUS_BAD_INPUT with
      * a reason where the data do not allow the fit. */

@@ -50,6 +50,21 @@ START_TEST(the_peak_is_that_of_the_mean_curve) {
 }
 END_TEST
 
+START_TEST(one_seed_has_a_peak_without_an_uncertainty) {
+    struct measurement m[SEEDS];
+    const struct measurement *list[SEEDS];
+    struct fault fault = FAULT_NONE;
+    double value[2] = {NAN, NAN}, error[2] = {NAN, NAN};
+    fill(m, list);
+    unit_ok(ensemble_find("peak-of-mean")->fit(list, 1, NULL, value, error, &fault), &fault);
+    ck_assert_double_eq_tol(value[0], 0.98 + 0.4, 1e-12);
+    ck_assert_double_eq_tol(value[1], 1.3, 1e-12);
+    ck_assert_double_nan(error[0]);
+    ck_assert_double_nan(error[1]);
+    empty(m);
+}
+END_TEST
+
 START_TEST(curves_that_cannot_be_averaged_are_refused) {
     struct measurement m[SEEDS];
     const struct measurement *list[SEEDS];
@@ -94,7 +109,10 @@ END_TEST
 
 int main(void) {
     const TTest *const tests[] = {the_peak_is_that_of_the_mean_curve,
+                                  one_seed_has_a_peak_without_an_uncertainty,
                                   curves_that_cannot_be_averaged_are_refused,
-                                  a_curve_is_found_by_its_name, every_ensemble_fit_is_whole, NULL};
+                                  a_curve_is_found_by_its_name,
+                                  every_ensemble_fit_is_whole,
+                                  NULL};
     return unit_run("ensemble", tests);
 }
