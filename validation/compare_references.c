@@ -61,7 +61,7 @@ static const struct reference *ensemble_of(const struct reader *r, const struct 
     if (row->key == NULL || row->meaning == NULL)
         return NULL;
     const struct reference_key key = {r->tier, strcmp(row->point, "single") == 0 ? "-" : row->point,
-                                      row->key, row->meaning};
+                                      row->key, row->meaning, false};
     return reference_find(find_kept(r, row->case_name), &key, ORIGIN_ENSEMBLE);
 }
 
