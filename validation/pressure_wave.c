@@ -104,7 +104,10 @@ static void find_fluxes(struct pressure_wave *w, double dt_s) {
                       w->mobile[f] * (w->push[f] - w->push[f - 1]);
         /* implicit in the friction: what is new has the share gamma dt/(1 + gamma dt) */
         double slow = w->change.inertia ? w->mobile[f] * w->cell_m / dt_s : 0;
-        w->flux[f] = (slow * w->flux[f] + flux) / (1 + slow);
+        double most = w->cell_m / (2 * dt_s); /* half of a cell in a step */
+        flux = (slow * w->flux[f] + flux) / (1 + slow);
+        w->flux[f] = flux > 0 ? fmin(flux, most * fmax(w->phi[f - 1], 0))
+                              : fmax(flux, -most * fmax(w->phi[f], 0));
         w->mobile[f] /= 1 + slow;
     }
 }

@@ -15,8 +15,9 @@ static inline struct fake_run spheres_start(int count, double radius_m, const do
              "  particles: %d\n  radius_m: %.17g\n  mass_kg: 2.3e-6\n  thermal_energy_J: 1.7e-9\n"
              "  packing_fraction: 0.3\n  width_x_R: %.17g\n  width_y_R: %.17g\n  height_R: %.17g\n"
              "  boundary_x: %s\n  boundary_y: %s\n  boundary_z: %s\n  temperature_scale: 1.3\n"
-             "  drag_per_s: 4.9\n  phibar: 0.37\n  exponent: 4.65\n  phibar_times_s: []\n%s",
-             count, radius_m, side_R[0], side_R[1], side_R[2], across, across, up, more);
+             "  drag_per_s: 4.9\n  phibar: 0.37\n  exponent: 4.65\n%s%s",
+             count, radius_m, side_R[0], side_R[1], side_R[2], across, across, up,
+             strstr(more, "  phibar_times_s:") ? "" : "  phibar_times_s: []\n", more);
     return fake_start(text);
 }
 
