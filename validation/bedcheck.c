@@ -1,6 +1,7 @@
 /* bedcheck.c -- the program: validation cases run, judged and reported.
  *
- *     bedcheck list | show | recipes | run | check | report | accept | clean | compare | history
+ *     bedcheck list | show | recipes | run | check | report | clean
+ *     bedcheck calibrate | accept | compare | history
  *
  * Only the command line is read here, one parser a command; command_*.c do the
  * work.  Exit codes: 0 all checks pass, 1 a check failed, 3 inconclusive, 2
@@ -221,6 +222,18 @@ static const struct argp_option list_options[] = {
     OPTION_CASES, OPTION_REFERENCES, OPTION_TIER, OPTION_TAG, {0}};
 static const struct argp_option show_options[] = {OPTION_CASES, OPTION_TIER, {0}};
 static const struct argp_option check_options[] = {OPTION_CASES, OPTION_REFERENCES, {0}};
+static const struct argp_option calibrate_options[] = {
+    OPTION_CASES,
+    OPTION_REFERENCES,
+    OPTION_TIER,
+    OPTION_TAG,
+    {"out", KEY_OUT, "DIR", 0, "Folder of results (default bedcheck-out/calibrate-TIER)", 0},
+    {"solver", KEY_SOLVER, "COMMAND", 0, "The solver (default: bedsim beside bedcheck)", 0},
+    {"jobs", 'j', "J", 0, "Runs at a time (default: the processors)", 0},
+    {"dry-run", KEY_DRY_RUN, 0, 0, "Show runs, what is reused, minutes and bytes; run nothing", 0},
+    {"timeout", KEY_TIMEOUT, "S", 0, "Wall-clock limit of each run instead of its case's", 0},
+    {"seeds", KEY_SEEDS, "K", 0, "K seeds for every point; an ensemble needs 32", 0},
+    {0}};
 static const struct argp_option accept_options[] = {
     OPTION_CASES,
     OPTION_REFERENCES,
@@ -302,6 +315,9 @@ static const struct command commands[] = {
      0, run_check},
     {"report", "DIR", "Judge the results in DIR again and write the report.", check_options, true,
      0, run_report},
+    {"calibrate", "CASE|GLOB...",
+     "Run cases with many seeds: alarm rates, margins, and what held-out seeds say of them.",
+     calibrate_options, 0, 1, command_calibrate},
     {"accept", "DIR", "Make results in DIR the stored references.", accept_options, 1, 0,
      command_accept},
     {"clean", "DIR", "Remove what bedcheck wrote in DIR, and nothing else.", clean_options, 1, 0,
@@ -315,7 +331,7 @@ static const struct command commands[] = {
 static void print_usage(FILE *out) {
     fputs("Usage: bedcheck COMMAND [OPTION...]\n\n", out);
     for (size_t i = 0; i < sizeof commands / sizeof *commands; i++)
-        fprintf(out, "  %-8s %-16s %s\n", commands[i].name, commands[i].arguments, commands[i].doc);
+        fprintf(out, "  %-9s %-16s %s\n", commands[i].name, commands[i].arguments, commands[i].doc);
     fputs(
         "\nbedcheck COMMAND --help tells the options of a command; bedcheck --version the build.\n"
         "Exit codes: 0 all checks pass, 1 a check failed, 3 inconclusive, 2 bedcheck's own "
@@ -361,6 +377,8 @@ static char *find_solver(void) {
     return dotted;
 }
 
+static const char *const calibrate_out[] = {
+    "bedcheck-out/calibrate-smoke", "bedcheck-out/calibrate-paper", "bedcheck-out/calibrate-large"};
 static const char *const standard_out[] = {"bedcheck-out/smoke", "bedcheck-out/paper",
                                            "bedcheck-out/large"};
 
@@ -390,7 +408,9 @@ static int perform(const struct command *command, struct line *l) {
     if (o->jobs == 0)
         o->jobs = processors < 1 ? 1 : (size_t)processors;
     if (o->out == NULL)
-        o->out = command->run == command_history ? "bedcheck-out/history" : standard_out[o->tier];
+        o->out = command->run == command_history     ? "bedcheck-out/history"
+                 : command->run == command_calibrate ? calibrate_out[o->tier]
+                                                     : standard_out[o->tier];
     if (!(o->level > 0))
         o->level = 1e-3;
     bool reads_cases =

@@ -54,6 +54,9 @@ int command_run(const struct command_options *o, const struct console *c);
 /* command_accept.c: make results references. */
 int command_accept(const struct command_options *o, const struct console *c);
 
+/* command_calibrate.c: run with many seeds, and say what they tell of tolerances. */
+int command_calibrate(const struct command_options *o, const struct console *c);
+
 /* command_check.c: judge again what is there; with `page`, write report/index.html too. */
 int command_check(const struct command_options *o, bool page, const struct console *c);
 int command_clean(const struct command_options *o, const struct console *c);

@@ -122,7 +122,7 @@ static enum verdict worse(enum verdict a, enum verdict b) {
 static enum verdict tell_case(const struct desk *d, size_t index) {
     static const char *const word[] = {"pass", "FAIL", "OPEN", "pass"};
     const struct rows *rows = d->rows[index];
-    FILE *out = d->console->out;
+    FILE *out = d->console == NULL ? NULL : d->console->out;
     size_t failed = 0, open = 0, known = 0;
     double seconds = 0;
     enum verdict v = VERDICT_PASS;
@@ -139,6 +139,8 @@ static enum verdict tell_case(const struct desk *d, size_t index) {
             seconds += isfinite(s) ? s : 0;
         }
     }
+    if (out == NULL)
+        return v;
     if (d->console->live)
         fputs("\r\033[K", d->console->errors);
     fprintf(out, "%s  %-40s %zu rows", word[v], c->file->name, rows->count);

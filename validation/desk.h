@@ -11,7 +11,8 @@
 
 struct desk; /* opaque */
 
-/* All borrowed; outcome[0 .. plan->run_count-1] may change until a case is judged. */
+/* console NULL: nothing is told, and nothing may be filed.
+ * All borrowed; outcome[0 .. plan->run_count-1] may change until a case is judged. */
 enum status desk_create(const struct plan *plan, const struct outcome *outcome,
                         const struct execute_options *execute, const struct console *console,
                         struct desk **out, struct fault *fault);
