@@ -41,6 +41,7 @@ struct report_row {
     const char *key;        /* what references call the observable, or NULL */
     const char *meaning;    /* digest of its runs and observables, or NULL */
     double detectable;      /* smallest change seen with 95 %, unit of measured; NaN: not known */
+    bool statistical;       /* does its verdict hang on scatter between seeds */
     double alarm_rate;      /* probability of no pass for unchanged code; NaN: not known */
     const char *since;      /* date since which the disagreement is known, or NULL */
     const char *bits;       /* what the bits of its runs say against the reference, or NULL */

@@ -119,10 +119,10 @@ static void read_regression(struct case_reader *r, const struct layers *l, struc
     else if (k->detects.given && !(k->detects.value > 0))
         case_read_fault(r, at, "check %s: detects: must be above 0", k->name);
     const struct case_across *a = k->number.across ? &r->c->across[k->number.index] : NULL;
-    if (a != NULL && (a->ensemble != NULL || a->of.across))
+    if (a != NULL && a->exact)
         case_read_fault(r, yaml_get(l->base, "observable"),
-                        "check %s: %s is one number of all seeds and has no ensemble of seeds to "
-                        "be compared with",
+                        "check %s: %s is exact: there is no ensemble that it could be compared "
+                        "with",
                         k->name, k->observable);
     if (!k->paired)
         return;

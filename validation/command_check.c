@@ -7,13 +7,20 @@
 static enum status judge(const struct review *r, bool page, const struct console *c, int *code,
                          struct fault *fault) {
     struct desk *desk = NULL;
+    struct budget *budget = NULL;
     enum verdict worst = VERDICT_PASS;
-    enum status status = desk_create(r->plan, r->outcome, &r->execute, c, &desk, fault);
+    enum status status =
+        budget_open(r->cases_folder, r->references_folder, r->plan->tier, r->plan, &budget, fault);
     if (status == STATUS_OK)
+        status = desk_create(r->plan, r->outcome, &r->execute, c, &desk, fault);
+    if (status == STATUS_OK) {
+        desk_set_budget(desk, budget);
         status = desk_judge(desk, &worst, fault);
+    }
     if (status == STATUS_OK)
         status = desk_file(desk, &r->record, page, code, fault);
     desk_free(desk);
+    budget_close(budget);
     return status;
 }
 

@@ -17,6 +17,7 @@ struct work {
     const struct console *console;
     struct selection *selection;
     struct plan *plan;
+    struct budget *budget;
     char *solver;
     struct digest solver_key;
     struct folder *folder;
@@ -66,9 +67,13 @@ static enum status choose_cases(struct work *w) {
     if (selection_make(&request, &w->selection, w->fault) != STATUS_OK ||
         review_set_seeds(w->selection, o->seed_count, w->fault) != STATUS_OK)
         return w->fault->status;
-    return plan_make(w->selection->order, w->selection->count,
-                     (const struct case_file *const *)w->selection->all, w->selection->all_count,
-                     request.tier, o->seed_offset, &w->plan, w->fault);
+    enum status status =
+        plan_make(w->selection->order, w->selection->count,
+                  (const struct case_file *const *)w->selection->all, w->selection->all_count,
+                  request.tier, o->seed_offset, &w->plan, w->fault);
+    return status == STATUS_OK ? budget_open(o->cases_folder, o->references_folder, request.tier,
+                                             w->plan, &w->budget, w->fault)
+                               : status;
 }
 
 static enum status find_solver(struct work *w) {
@@ -235,6 +240,8 @@ static enum status run_all(struct work *w) {
     enum status status =
         desk_create(w->plan, w->outcome, &w->execute, w->console, &w->desk, w->fault);
     if (status == STATUS_OK)
+        desk_set_budget(w->desk, w->budget);
+    if (status == STATUS_OK)
         status = execute_plan(w->plan, &w->execute, w->outcome, w->fault);
     if (w->console->live)
         fputs("\r\033[K", w->console->errors);
@@ -278,6 +285,7 @@ int command_run(const struct command_options *o, const struct console *c) {
     folder_close(w.folder);
     free(w.outcome);
     free(w.solver);
+    budget_close(w.budget);
     plan_free(w.plan);
     selection_free(w.selection);
     earlier_free(&w.earlier);

@@ -15,6 +15,7 @@ struct desk {
     const struct console *console;
     struct measured_case **measured; /* measured[0 .. plan->case_count-1], NULL: not yet */
     struct rows **rows;
+    const struct budget *budget; /* or NULL */
 };
 
 enum status desk_create(const struct plan *plan, const struct outcome *outcome,
@@ -24,7 +25,7 @@ enum status desk_create(const struct plan *plan, const struct outcome *outcome,
     *out = d;
     if (d == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "judging: out of memory");
-    *d = (struct desk){plan, outcome, execute, console, NULL, NULL};
+    *d = (struct desk){plan, outcome, execute, console, NULL, NULL, NULL};
     d->measured = calloc(plan->case_count + 1, sizeof *d->measured);
     d->rows = calloc(plan->case_count + 1, sizeof *d->rows);
     if (d->measured != NULL && d->rows != NULL)
@@ -32,6 +33,10 @@ enum status desk_create(const struct plan *plan, const struct outcome *outcome,
     desk_free(d);
     *out = NULL;
     return fault_set(fault, STATUS_NO_MEMORY, "judging: out of memory");
+}
+
+void desk_set_budget(struct desk *d, const struct budget *b) {
+    d->budget = b;
 }
 
 void desk_free(struct desk *d) {
@@ -166,7 +171,7 @@ enum status desk_judge(struct desk *d, enum verdict *worst, struct fault *fault)
             continue;
         enum status status = measure_case(&d->plan->cases[i], &source, &d->measured[i], fault);
         if (status == STATUS_OK)
-            status = rows_judge(d->measured[i], d->execute, &d->rows[i], fault);
+            status = rows_judge(d->measured[i], d->execute, d->budget, &d->rows[i], fault);
         if (status != STATUS_OK)
             return status;
         *worst = worse(*worst, tell_case(d, i));

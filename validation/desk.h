@@ -18,6 +18,10 @@ enum status desk_create(const struct plan *plan, const struct outcome *outcome,
                         struct desk **out, struct fault *fault);
 void desk_free(struct desk *d); /* NULL is allowed */
 
+/* The references and the share of false alarms to judge by; borrowed.  Without it, what needs a
+ * reference is inconclusive. */
+void desk_set_budget(struct desk *d, const struct budget *b);
+
 /* Judge every case whose runs are all settled and that is not judged yet.
  * *worst is the worst verdict so far. */
 enum status desk_judge(struct desk *d, enum verdict *worst, struct fault *fault);

@@ -69,7 +69,7 @@ double judge_refuting_ratio(size_t seeds, double alarm_rate) {
     return seeds < 2 ? INFINITY : sqrt(gsl_cdf_chisq_Qinv(p, freedom) / freedom);
 }
 
-static double amount_of(const struct case_amount *a, double expected) {
+double judge_amount(const struct case_amount *a, double expected) {
     return a->percent ? a->value / 100 * fabs(expected) : a->value;
 }
 
@@ -138,7 +138,7 @@ static void judge_each(const struct judge_question *q, struct judge_answer *out)
     enum verdict v = VERDICT_PASS;
     for (size_t i = 0; i < q->count; i++) {
         double d = q->measured[i] - q->expected[i];
-        double tolerance = amount_of(&q->margin, q->expected[i]);
+        double tolerance = judge_amount(&q->margin, q->expected[i]);
         double beyond = excess(q->comparison, d, tolerance);
         enum verdict one = judge_interval(q->comparison, d, h, tolerance);
         if (one == VERDICT_FAIL || v == VERDICT_PASS)
@@ -180,7 +180,7 @@ static bool find_uncertainty(const struct judge_question *q, struct judge_answer
         return isfinite(out->uncertainty) && out->uncertainty >= 0;
     }
     if (q->scatter.given) {
-        double s = amount_of(&q->scatter, out->expected);
+        double s = judge_amount(&q->scatter, out->expected);
         out->uncertainty = s / sqrt(n);
         if (q->count < 2 || sd <= judge_refuting_ratio(q->count, q->alarm_rate) * s)
             return true;
@@ -210,7 +210,7 @@ static void judge_mean(const struct judge_question *q, struct judge_answer *out)
     double freedom;
     out->measured = mean_of(q->measured, q->count);
     out->expected = mean_of(q->expected, q->count);
-    out->tolerance = amount_of(&q->margin, out->expected);
+    out->tolerance = judge_amount(&q->margin, out->expected);
     if (!find_uncertainty(q, out, &freedom))
         return;
     out->interval = judge_half_width(out->uncertainty, out->expected_uncertainty, freedom);
@@ -238,6 +238,8 @@ static const char *lack_of_ensemble(const struct judge_question *q) {
         return "the stored ensemble has no scatter";
     if (!(q->alarm_rate > 0 && q->alarm_rate < 1))
         return "no share of the false alarms was given";
+    if (q->fitted && q->seeds < 1)
+        return "the seeds of the fit are not known";
     return NULL;
 }
 
@@ -285,13 +287,23 @@ static bool spread_is_fair(const struct judge_question *q, struct judge_answer *
     return sd > 0 && sd <= most;
 }
 
+/* Seeds that the judged number is made of, and of those whose scatter is seen. */
+static size_t seeds_behind(const struct judge_question *q) {
+    return q->fitted ? q->seeds : q->count;
+}
+
+static size_t seeds_seen(const struct judge_question *q) {
+    return q->fitted ? 1 : q->count;
+}
+
 static void judge_regression(const struct judge_question *q, struct judge_answer *out) {
     const struct judge_ensemble *e = &q->ensemble;
-    double level = judge_share_of_mean(q->alarm_rate, q->count);
-    double scale = power_scale(e->deviation, q->count, e->seeds);
+    size_t n = seeds_behind(q);
+    double level = judge_share_of_mean(q->alarm_rate, seeds_seen(q));
+    double scale = power_scale(e->deviation, n, e->seeds);
     double quantile = power_quantile(level, (double)e->seeds - 1);
     out->measured = mean_of(q->measured, q->count);
-    out->uncertainty = e->deviation / sqrt((double)q->count);
+    out->uncertainty = e->deviation / sqrt((double)n);
     out->expected = e->mean;
     out->expected_uncertainty = e->deviation / sqrt((double)e->seeds);
     out->tolerance = quantile * scale;
@@ -310,11 +322,11 @@ double judge_detectable(const struct judge_question *q) {
     if (q->kind != KIND_REGRESSION || (!q->paired && lack_of_ensemble(q) != NULL))
         return NAN;
     if (!q->paired)
-        return power_detectable(e->deviation, q->count, e->seeds,
-                                judge_share_of_mean(q->alarm_rate, q->count));
+        return power_detectable(e->deviation, seeds_behind(q), e->seeds,
+                                judge_share_of_mean(q->alarm_rate, seeds_seen(q)));
     double widest = 0;
     for (size_t i = 0; i < q->count; i++)
-        widest = fmax(widest, 2 * amount_of(&q->margin, q->expected[i]));
+        widest = fmax(widest, 2 * judge_amount(&q->margin, q->expected[i]));
     return lack_of_pairs(q) == NULL ? widest : NAN;
 }
 
@@ -365,7 +377,7 @@ static void show_rest(const struct judge_question *q, struct judge_answer *out) 
         return;
     out->measured = m / (double)count;
     out->expected = e / (double)count;
-    out->tolerance = amount_of(&q->margin, out->expected);
+    out->tolerance = judge_amount(&q->margin, out->expected);
 }
 
 void judge_check(const struct judge_question *q, struct judge_answer *out) {

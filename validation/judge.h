@@ -58,6 +58,7 @@ struct judge_question {
     const double *expected;      /* expected[0 .. count-1]; NULL where an ensemble judges */
     double expected_uncertainty; /* standard uncertainty of the expectation itself */
     bool fitted;                 /* one sample, the result of a fit */
+    size_t seeds;                /* that went into the fit; regression only */
     double fit_uncertainty;      /* its standard uncertainty; NaN: unknown */
     const char *missing;         /* why a sample is NaN, or NULL */
     bool paired;                 /* regression, seed by seed: expected[] are the reference's */
@@ -77,6 +78,9 @@ struct judge_answer {
 };
 
 void judge_check(const struct judge_question *q, struct judge_answer *out);
+
+/* A margin, a scatter or a change to be detected, in the unit of the expectation. */
+double judge_amount(const struct case_amount *a, double expected);
 
 /* Smallest change that a regression check sees with 95 %, in the unit of its values (power.h);
  * of pairs, twice the margin: of that round-off may use up one, and a change as large is seen

@@ -1,8 +1,10 @@
 #include "validation/rows.h"
 
+#include "validation/alarm.h"
 #include "validation/judge.h"
 #include "validation/reference.h"
 #include "validation/rows_across.h"
+#include "validation/scatter.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +16,8 @@ struct clerk {
     const struct execute_options *o;
     struct rows *rows;
     struct fault *fault;
+    const struct references *references; /* NULL: none */
+    double share;                        /* of the false alarms; 0: no budget */
 };
 
 static enum status no_memory(struct clerk *k) {
@@ -116,17 +120,93 @@ static enum status begin_row(struct clerk *k, const struct case_check *check, co
     return row->observable == NULL ? no_memory(k) : STATUS_OK;
 }
 
-/* What the row is kept under as a reference, so that other runs of the suite find it. */
-static enum status name_row(struct clerk *k, size_t check, size_t point, struct report_row *row) {
+/* -- what is stored ------------------------------------------------------------- */
+
+/* One row in the making. */
+struct draft {
+    const struct case_check *check;
+    size_t index, first; /* of the check in the tier, of its first point */
     struct reference_key key;
-    enum status status =
-        reference_key_make(k->m->plan, check, point, &k->rows->arena, &key, k->fault);
-    if (status == STATUS_OK) {
-        row->key = key.observable;
-        row->meaning = key.meaning;
-    }
-    return status;
+    struct judge_question q;
+    double *expected; /* q.expected, to be filled in from a reference */
+    struct report_row row;
+};
+
+/* The line of that origin, or NULL and why. */
+static const struct reference *look_up(struct clerk *k, const struct draft *d,
+                                       enum reference_origin origin, const char **why) {
+    const struct reference *line = reference_find(k->references, &d->key, origin);
+    if (line != NULL && reference_is_meant(line, d->key.meaning))
+        return line;
+    *why = line == NULL ? arena_text(&k->rows->arena, "no %s reference for this tier and point",
+                                     reference_origin_name(origin))
+                        : "the reference was made from another text of the case";
+    return NULL;
 }
+
+static void take_ensemble(struct clerk *k, struct draft *d) {
+    const struct reference *line = look_up(k, d, ORIGIN_ENSEMBLE, &d->q.no_reference);
+    if (line != NULL)
+        d->q.ensemble = (struct judge_ensemble){line->seeds, line->value, line->deviation};
+}
+
+static void take_pairs(struct clerk *k, struct draft *d) {
+    const struct measured_point *p = &k->m->point[d->first];
+    for (size_t i = 0; i < d->q.count; i++) {
+        long long seed = p->run[i].run->seed;
+        const struct reference *line = reference_find_seed(k->references, &d->key, seed);
+        bool meant = line != NULL && reference_is_meant(line, d->key.meaning);
+        d->expected[i] = meant ? line->value : NAN;
+        if (line == NULL)
+            d->q.no_reference = arena_text(&k->rows->arena, "no reference for seed %lld", seed);
+        else if (!meant)
+            d->q.no_reference = "the reference was made from another text of the case";
+    }
+}
+
+/* An expectation that stands in the table, with its uncertainty. */
+static void take_expected(struct clerk *k, struct draft *d, const struct case_expect *e) {
+    enum reference_origin origin = ORIGIN_COUNT;
+    const char *why = NULL;
+    reference_origin_find(e->reference, &origin);
+    const struct reference *line = look_up(k, d, origin, &why);
+    for (size_t i = 0; i < d->q.count; i++)
+        d->expected[i] = line == NULL ? NAN : line->value;
+    d->q.expected_uncertainty = line == NULL ? NAN : line->deviation;
+    if (line == NULL && d->q.missing == NULL)
+        d->q.missing = why;
+}
+
+/* What the row is kept under, so that other runs of the suite find it, and what is kept there. */
+static enum status consult(struct clerk *k, struct draft *d) {
+    const struct plan_point *p = k->m->point[d->first].point;
+    const struct case_expect *e =
+        case_expect_find(&d->check->expect, p->parameter, p->parameter_count);
+    enum status status =
+        reference_key_make(k->m->plan, d->index, d->first, &k->rows->arena, &d->key, k->fault);
+    if (status != STATUS_OK)
+        return status;
+    d->row.key = d->key.observable;
+    d->row.meaning = d->key.meaning;
+    d->row.since = d->check->known_since;
+    d->row.statistical = scatter_is_statistical(k->m->plan->file, d->check);
+    d->q.comparison = d->check->comparison;
+    d->q.kind = d->check->kind;
+    d->q.margin = d->check->margin;
+    d->q.scatter = d->check->scatter;
+    d->q.paired = d->check->paired;
+    d->q.known_since = d->check->known_since;
+    d->q.alarm_rate = k->share;
+    if (d->q.kind == KIND_REGRESSION && d->q.paired)
+        take_pairs(k, d);
+    else if (d->q.kind == KIND_REGRESSION)
+        take_ensemble(k, d);
+    else if (e != NULL && e->kind == EXPECT_REFERENCE)
+        take_expected(k, d, e);
+    return STATUS_OK;
+}
+
+/* -- judging ---------------------------------------------------------------------- */
 
 /* Degrees of freedom of the uncertainty that the judge gives the mean. */
 static double freedom_of(const struct judge_question *q) {
@@ -137,88 +217,117 @@ static double freedom_of(const struct judge_question *q) {
     return q->count > 0 ? (double)q->count - 1 : 0;
 }
 
-static enum status end_row(struct clerk *k, const struct judge_question *q,
-                           const struct measured_point *point, const struct case_check *check,
-                           struct report_row *row) {
+/* Probability that unchanged code gets another verdict. */
+static double rate_of(struct clerk *k, const struct draft *d, const struct judge_answer *answer) {
+    const struct judge_question *q = &d->q;
+    const char *why;
+    if (!d->row.statistical)
+        return 0;
+    if (q->kind == KIND_REGRESSION)
+        return isfinite(d->row.detectable) ? k->share : NAN;
+    const struct reference *line = look_up(k, d, ORIGIN_ENSEMBLE, &why);
+    if (line == NULL)
+        return NAN;
+    double mean = d->key.difference ? line->value : line->value - answer->expected;
+    struct alarm_question a = {.comparison = q->comparison,
+                               .tolerance = answer->tolerance,
+                               .ensemble = {line->seeds, mean, line->deviation},
+                               .seeds = q->fitted ? q->seeds : q->count,
+                               .fitted = q->fitted,
+                               .declared = NAN,
+                               .expected_uncertainty = answer->expected_uncertainty,
+                               .share = k->share,
+                               .known = q->known_since != NULL};
+    if (q->scatter.given)
+        a.declared = judge_amount(&q->scatter, answer->expected);
+    return alarm_rate(&a);
+}
+
+/* ", a change of 0.05 (4 %) is seen with 95 %" */
+static const char *tell_power(struct clerk *k, const struct draft *d, const char *reason) {
+    double seen = d->row.detectable, e = d->row.expected;
+    if (!isfinite(seen))
+        return arena_copy(&k->rows->arena, reason);
+    if (!(fabs(e) > 0))
+        return arena_text(&k->rows->arena, "%s; a change of %.3g is seen with 95 %%", reason, seen);
+    return arena_text(&k->rows->arena, "%s; a change of %.3g (%.2g %%) is seen with 95 %%", reason,
+                      seen, 100 * seen / fabs(e));
+}
+
+static enum status end_row(struct clerk *k, struct draft *d, const struct measured_point *point) {
     struct judge_answer answer;
-    judge_check(q, &answer);
+    struct report_row *row = &d->row;
+    judge_check(&d->q, &answer);
     row->measured = answer.measured;
     row->uncertainty = answer.uncertainty;
     row->expected = answer.expected;
     row->expected_uncertainty = answer.expected_uncertainty;
     row->tolerance = answer.tolerance;
     row->verdict = answer.verdict;
-    row->freedom = freedom_of(q);
-    row->reason = arena_copy(&k->rows->arena, answer.reason);
-    return row->reason == NULL ? no_memory(k) : add(k, row, point, check);
-}
-
-static struct judge_question ask(const struct case_check *check) {
-    return (struct judge_question){.comparison = check->comparison,
-                                   .kind = check->kind,
-                                   .margin = check->margin,
-                                   .scatter = check->scatter};
+    row->freedom = freedom_of(&d->q);
+    row->detectable = judge_detectable(&d->q);
+    row->alarm_rate = rate_of(k, d, &answer);
+    row->reason = tell_power(k, d, answer.reason);
+    return row->reason == NULL ? no_memory(k) : add(k, row, point, d->check);
 }
 
 static enum status judge_point(struct clerk *k, size_t index, const struct measured_point *p) {
-    const struct case_check *check = &k->m->plan->tier->check[index];
-    struct report_row row;
+    struct draft d = {.check = &k->m->plan->tier->check[index],
+                      .index = index,
+                      .first = (size_t)(p - k->m->point)};
     double *measured = arena_take(&k->rows->arena, p->run_count, sizeof *measured);
-    double *expected = arena_take(&k->rows->arena, p->run_count, sizeof *expected);
-    if (measured == NULL || expected == NULL)
+    d.expected = arena_take(&k->rows->arena, p->run_count, sizeof *d.expected);
+    if (measured == NULL || d.expected == NULL)
         return no_memory(k);
-    struct judge_question q = ask(check);
-    q.count = p->run_count;
-    q.measured = measured;
-    q.expected = expected;
+    d.q = (struct judge_question){
+        .count = p->run_count, .measured = measured, .expected = d.expected};
     for (size_t i = 0; i < p->run_count; i++) {
         const struct measured_run *r = &p->run[i];
         measured[i] = r->usable ? r->sample[index].measured : NAN;
-        expected[i] = r->usable ? r->sample[index].expected : NAN;
+        d.expected[i] = r->usable ? r->sample[index].expected : NAN;
         if (r->usable)
-            q.expected_uncertainty = r->sample[index].expected_uncertainty;
+            d.q.expected_uncertainty = r->sample[index].expected_uncertainty;
         const char *reason = r->usable ? r->sample[index].reason : r->failure;
-        if (q.missing == NULL && reason != NULL)
-            q.missing = reason;
+        if (d.q.missing == NULL && reason != NULL)
+            d.q.missing = reason;
     }
-    enum status status = begin_row(k, check, p->point->name, &row);
+    enum status status = begin_row(k, d.check, p->point->name, &d.row);
     if (status == STATUS_OK)
-        status = list_runs(k, p, &row);
+        status = list_runs(k, p, &d.row);
     if (status == STATUS_OK)
-        status = list_values(k, p, measured, &row);
+        status = list_values(k, p, measured, &d.row);
     if (status == STATUS_OK)
-        status = name_row(k, index, (size_t)(p - k->m->point), &row);
-    row.repeat = repeat_point(k, p);
-    return status == STATUS_OK ? end_row(k, &q, p, check, &row) : status;
+        status = consult(k, &d);
+    d.row.repeat = repeat_point(k, p);
+    return status == STATUS_OK ? end_row(k, &d, p) : status;
 }
 
 static enum status judge_group(struct clerk *k, size_t index, size_t first) {
-    const struct case_check *check = &k->m->plan->tier->check[index];
-    const struct case_across *a = &k->m->plan->file->across[check->number.index];
-    struct report_row row;
+    struct draft d = {.check = &k->m->plan->tier->check[index], .index = index, .first = first};
+    const struct case_across *a = &k->m->plan->file->across[d.check->number.index];
     struct rows_group g;
     enum status status = rows_group_fit(k->m, index, first, &k->rows->arena, &g, k->fault);
     if (status == STATUS_OK)
-        status = begin_row(k, check, g.name, &row);
+        status = begin_row(k, d.check, g.name, &d.row);
     for (size_t p = first; status == STATUS_OK && p < k->m->point_count; p++) {
         if (rows_group_has(k->m, a, first, p))
-            status = list_runs(k, &k->m->point[p], &row);
+            status = list_runs(k, &k->m->point[p], &d.row);
     }
-    if (status == STATUS_OK)
-        status = name_row(k, index, first, &row);
     if (status != STATUS_OK)
         return status;
-    struct judge_question q = ask(check);
-    q.count = 1;
-    q.fitted = true;
-    q.measured = &g.value;
-    q.expected = &g.expected;
-    q.expected_uncertainty = g.expected_uncertainty;
-    q.fit_uncertainty = g.uncertainty;
-    q.missing = g.reason;
+    d.expected = &g.expected;
+    d.q = (struct judge_question){.count = 1,
+                                  .fitted = true,
+                                  .seeds = k->m->point[first].run_count,
+                                  .measured = &g.value,
+                                  .expected = &g.expected,
+                                  .expected_uncertainty = g.expected_uncertainty,
+                                  .fit_uncertainty = g.uncertainty,
+                                  .missing = g.reason};
     const struct measured_point *alone = a->ensemble != NULL ? &k->m->point[first] : NULL;
-    row.repeat = alone != NULL ? repeat_point(k, alone) : repeat_case(k);
-    return end_row(k, &q, alone, check, &row);
+    d.row.repeat = alone != NULL ? repeat_point(k, alone) : repeat_case(k);
+    status = consult(k, &d);
+    return status == STATUS_OK ? end_row(k, &d, alone) : status;
 }
 
 static enum status judge_one(struct clerk *k, size_t index) {
@@ -270,7 +379,7 @@ static enum status report_failure(struct clerk *k, const struct measured_point *
                              .run_count = 1,
                              .seconds = isfinite(r->seconds) ? r->seconds : 0,
                              .detectable = NAN,
-                             .alarm_rate = NAN};
+                             .alarm_rate = 0};
     return row.check == NULL ? no_memory(k) : add(k, &row, NULL, NULL);
 }
 
@@ -288,12 +397,14 @@ static enum status judge_all(struct clerk *k) {
 }
 
 enum status rows_judge(const struct measured_case *m, const struct execute_options *o,
-                       struct rows **out, struct fault *fault) {
+                       const struct budget *budget, struct rows **out, struct fault *fault) {
     *out = NULL;
     struct rows *rows = calloc(1, sizeof *rows);
     if (rows == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "judge: out of memory");
-    struct clerk k = {m, o, rows, fault};
+    struct clerk k = {.m = m, .o = o, .rows = rows, .fault = fault};
+    k.references = budget_references(budget, m->plan->file->name);
+    k.share = budget == NULL ? 0 : budget->share;
     enum status status = judge_all(&k);
     if (status != STATUS_OK) {
         rows_free(rows);

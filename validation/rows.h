@@ -9,6 +9,7 @@
 #define VALIDATION_ROWS_H
 
 #include "report/report.h"
+#include "validation/budget.h"
 #include "validation/execute.h"
 #include "validation/measure.h"
 
@@ -20,9 +21,10 @@ struct rows {
     const struct case_check **check;     /* check[i]: NULL for run rows */
 };
 
-/* `o` serves the commands that repeat a run; m must outlive the rows. */
+/* `o` serves the commands that repeat a run; m must outlive the rows.  Without a budget there are
+ * no references, and what needs one is inconclusive. */
 enum status rows_judge(const struct measured_case *m, const struct execute_options *o,
-                       struct rows **out, struct fault *fault);
+                       const struct budget *budget, struct rows **out, struct fault *fault);
 void rows_free(struct rows *r); /* NULL is allowed */
 
 #endif

@@ -153,6 +153,8 @@ static enum status load_chosen(struct selection *s, const struct selection_reque
         return no_memory(fault);
     for (size_t i = 0; i < list->count; i++) {
         struct case_file *c = load(s, r->folder, list->name[i], fault);
+        if (c == NULL && r->lenient && fault->status != STATUS_NO_MEMORY)
+            *fault = FAULT_NONE;
         if (c == NULL || !has_tag(r, c))
             continue;
         if (!r->any_tier && !c->tier[r->tier].present) {
@@ -166,6 +168,22 @@ static enum status load_chosen(struct selection *s, const struct selection_reque
     return fault->status;
 }
 
+/* Leave out the cases that start, directly or not, from this one. */
+static void leave_out(struct selection *s, const char *name, enum tier tier) {
+    size_t kept = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        const char *start = s->order[i].file->tier[tier].start.case_name;
+        for (int depth = 0; start != NULL && strcmp(start, name) != 0 && depth < MAX_DEPTH;
+             depth++) {
+            const struct case_file *from = find_loaded(s, start);
+            start = from == NULL ? NULL : from->tier[tier].start.case_name;
+        }
+        if (start == NULL)
+            s->order[kept++] = s->order[i];
+    }
+    s->count = kept;
+}
+
 /* Cases that others start from: the list grows while it is gone through. */
 static enum status load_starts(struct selection *s, const struct selection_request *r,
                                struct fault *fault) {
@@ -174,7 +192,12 @@ static enum status load_starts(struct selection *s, const struct selection_reque
             const struct case_start *start = &s->all[i]->tier[t].start;
             if (start->case_name == NULL || find_loaded(s, start->case_name) != NULL)
                 continue;
-            if (load(s, r->folder, start->case_name, fault) == NULL) {
+            if (load(s, r->folder, start->case_name, fault) != NULL)
+                continue;
+            if (r->lenient && fault->status != STATUS_NO_MEMORY) {
+                *fault = FAULT_NONE;
+                leave_out(s, start->case_name, r->tier);
+            } else {
                 yaml_fault(start->node, fault, "start: case %s cannot be loaded", start->case_name);
                 return fault->status;
             }

@@ -17,6 +17,7 @@ struct selection_request {
     const char *const *skip;    /* "CASE=reason" */
     bool any_tier;              /* `list`: leave none out for its tier, check all readings */
     enum tier tier;
+    bool lenient; /* leave out what cannot be read, and what starts from it */
 };
 
 struct selection {

@@ -91,6 +91,7 @@ static const struct spoiled faults[] = {
      "check paper: paired: belongs to regression checks"},
     {"detects: 0.7", "detects: 0.7, paired: true, margin: 0.1",
      "trend.zero is no number of single"},
+    {"along: height_l}", "along: height_l, exact: true}", "check slope: trend.zero is exact"},
     {"kind: regression, detects: 0.7", "kind: model, margin: 2", "check slope: expect: is missing"},
     {"reference: published", "reference: publshed", "did you mean 'published'?"},
     {"reference: published", "reference: ensemble", "ensemble"},

@@ -71,7 +71,7 @@ static void set_up(struct stage *s) {
 static struct rows *judge(struct stage *s) {
     struct fault fault = FAULT_NONE;
     struct rows *rows;
-    unit_ok(rows_judge(s->m, &s->o, &rows, &fault), &fault);
+    unit_ok(rows_judge(s->m, &s->o, NULL, &rows, &fault), &fault);
     return rows;
 }
 

@@ -88,7 +88,7 @@ static struct rows *judge(struct stage *s) {
     struct rows *rows;
     for (size_t p = 0; p < s->m->point_count; p++)
         unit_ok(measured_fit_ensembles(s->m->plan, &s->m->arena, &s->m->point[p], &fault), &fault);
-    unit_ok(rows_judge(s->m, &s->o, &rows, &fault), &fault);
+    unit_ok(rows_judge(s->m, &s->o, NULL, &rows, &fault), &fault);
     return rows;
 }
 
