@@ -8,8 +8,11 @@
  *     Z = 1 + 4 phi chi = (1 + phi + phi^2 - phi^3)/(1-phi)^3    Carnahan & Starling
  *     f = 24 phi chi v/(sqrt(pi) d)                              Enskog, 2 N_coll/(N t)
  *     D = 1.01896 sqrt(pi) d v/(16 phi chi) (1 + .054034 x + 6.3656 x^2 - 10.9425 x^3)
- *     eta = (4 phi)(1/(4 phi chi) + .8 + .7614 (4 phi chi)) eta_B,  eta_B = 1.016 (5/16)
- * sqrt(mT/pi)/d^2 zeta = (4/9) n^2 d^4 chi sqrt(pi m T)
+ *     eta = (4 phi)(1/(4 phi chi) + .8 + .7614 (4 phi chi)) eta_B
+ *     lambda = (4 phi)(1/(4 phi chi) + 1.2 + .7574 (4 phi chi)) lambda_B
+ *     zeta = (4/9) n^2 d^4 chi sqrt(pi m T)
+ *
+ * eta_B = 1.016 (5/16) sqrt(mT/pi)/d^2, lambda_B = 1.025 (75/64) sqrt(T/(pi m))/d^2,
  *
  * and for the model's own laws ("FZ"):
  *
