@@ -1,6 +1,7 @@
 /* command_calibrate.c -- bedcheck calibrate: many seeds of some cases, and what they say. */
 #include "validation/command.h"
 
+#include "validation/budget.h"
 #include "validation/calibrate.h"
 #include "validation/desk.h"
 #include "validation/review.h"
@@ -9,50 +10,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* False alarms of one run of the suite, see docs/references.md. */
-static const double budget = 1e-3;
-
 struct work {
     const struct command_options *o;
     FILE *out;
     struct review *review;
     struct desk *desk;
-    size_t rows; /* statistical rows of the whole tier */
+    struct budget *budget; /* of every case of the folder, not of the chosen ones */
     double share;
     struct calibrate_count sum; /* over all rows that could be held out */
     size_t unknown;             /* rows whose rate is not to be had */
     struct fault *fault;
 };
-
-/* -- the share ------------------------------------------------------------------------------ */
-
-static size_t count_rows(const struct plan_case *c) {
-    size_t rows = 0;
-    for (size_t k = 0; k < c->tier->check_count; k++) {
-        for (size_t p = 0; p < c->point_count; p++)
-            rows +=
-                scatter_is_statistical(c->file, &c->tier->check[k]) && reference_has_row(c, k, p);
-    }
-    return rows;
-}
-
-/* Every case of the folder counts, not the ones chosen. */
-static enum status count_suite(struct work *w) {
-    struct selection_request all = {.folder = w->review->cases_folder,
-                                    .tier = w->review->plan->tier};
-    struct selection *s = NULL;
-    struct plan *p = NULL;
-    enum status status = selection_make(&all, &s, w->fault);
-    if (status == STATUS_OK)
-        status = plan_make(s->order, s->count, (const struct case_file *const *)s->all,
-                           s->all_count, all.tier, 0, &p, w->fault);
-    for (size_t i = 0; status == STATUS_OK && i < p->case_count; i++)
-        w->rows += count_rows(&p->cases[i]);
-    w->share = w->rows > 0 ? budget / (double)w->rows : budget;
-    plan_free(p);
-    selection_free(s);
-    return status;
-}
 
 /* -- telling -------------------------------------------------------------------------------- */
 
@@ -135,7 +103,8 @@ static enum status tell_all(struct work *w) {
     fprintf(w->out,
             "tier %s, %zu seeds a point; budget %g false alarms a run of the suite, %zu rows share "
             "it: %.2g each\n",
-            case_tier_name(p->tier), w->o->seed_count, budget, w->rows, w->share);
+            case_tier_name(p->tier), w->o->seed_count, SUITE_FALSE_ALARMS, w->budget->statistical,
+            w->share);
     for (size_t i = 0; i < p->case_count; i++) {
         if (p->cases[i].skip_reason == NULL && tell_case(w, i) != STATUS_OK)
             return w->fault->status;
@@ -161,8 +130,12 @@ static enum status look(struct work *w) {
     if (status == STATUS_OK)
         status = desk_judge(w->desk, &worst, w->fault);
     if (status == STATUS_OK)
-        status = count_suite(w);
-    return status == STATUS_OK ? tell_all(w) : status;
+        status = budget_open((*r)->cases_folder, NULL, (*r)->plan->tier, (*r)->plan, &w->budget,
+                             w->fault);
+    if (status != STATUS_OK)
+        return status;
+    w->share = w->budget->share;
+    return tell_all(w);
 }
 
 int command_calibrate(const struct command_options *o, const struct console *c) {
@@ -180,6 +153,7 @@ int command_calibrate(const struct command_options *o, const struct console *c) 
         fprintf(c->errors, "bedcheck: %s\n", fault.text);
         code = 2;
     }
+    budget_close(w.budget);
     desk_free(w.desk);
     review_close(w.review);
     return code == 2 ? 2 : 0;
