@@ -53,14 +53,10 @@ static double measured(const struct hydrostatic_bed *bed, double fraction) {
     return exp(sum);
 }
 
-/* s^2 (1 + H r s) = 1 + H, s = sqrt(t), r = p chi(p) over that of the bulk at phibar. */
-double hydrostatic_temperature(const struct hydrostatic_bed *bed, double bulk) {
-    if (bed->measured_to > 0)
-        return measured(bed, hydrostatic_fraction_of(bed, bulk));
-    if (!bed->local_temperature)
-        return 1;
-    double home = hydrostatic_bulk_of(bed, bed->phibar), h = bed->heat_ratio, s = 1;
+/* s^2 (1 + H r s) = 1 + H, s = sqrt(t), r = p chi(p) over that of the bulk at phibar, `home`. */
+static double balanced(const struct hydrostatic_bed *bed, double home, double bulk) {
     double r = bulk * spheres_contact(bulk) / (home * spheres_contact(home));
+    double h = bed->heat_ratio, s = 1;
     for (int i = 0; i < 60; i++) {
         double step = (s * s * (1 + h * r * s) - 1 - h) / (2 * s + 3 * h * r * s * s);
         s -= step;
@@ -70,33 +66,72 @@ double hydrostatic_temperature(const struct hydrostatic_bed *bed, double bulk) {
     return s * s;
 }
 
-static double pressure(const struct hydrostatic_bed *bed, double p) {
-    double push = bed->restitution > 0 ? (1 + bed->restitution) / 2 : 1;
-    double z = 1 + push * (spheres_compressibility(p) - 1);
-    return p * z * hydrostatic_temperature(bed, p);
+static double temperature(const struct hydrostatic_bed *bed, double home, double bulk) {
+    if (bed->measured_to > 0)
+        return measured(bed, hydrostatic_fraction_of(bed, bulk));
+    return bed->local_temperature ? balanced(bed, home, bulk) : 1;
 }
 
-/* (P(p2) - P(p1))/L(p1, p2) of two fractions phi. */
-static double climb(const struct hydrostatic_bed *bed, double phi1, double phi2) {
-    double p1 = hydrostatic_bulk_of(bed, phi1), p2 = hydrostatic_bulk_of(bed, phi2);
-    double mean = fabs(p2 / p1 - 1) < 1e-5 ? (p1 + p2) / 2 : (p2 - p1) / log(p2 / p1);
-    return (pressure(bed, p2) - pressure(bed, p1)) / mean;
+double hydrostatic_temperature(const struct hydrostatic_bed *bed, double bulk) {
+    return temperature(bed, hydrostatic_bulk_of(bed, bed->phibar), bulk);
+}
+
+static double pressure(const struct hydrostatic_bed *bed, double home, double p) {
+    double push = bed->restitution > 0 ? (1 + bed->restitution) / 2 : 1;
+    double z = 1 + push * (spheres_compressibility(p) - 1);
+    return p * z * temperature(bed, home, p);
 }
 
 /* -- equations -------------------------------------------------------------------- */
+
+/* A cell: p, P(p), and their slopes. */
+struct cell {
+    double bulk, pressure; /* p, p Z t (1) */
+    double bulk_slope;     /* dp/dphi (1) */
+    double pressure_slope; /* dP/dp (1) */
+};
 
 struct problem {
     const struct hydrostatic_bed *bed;
     size_t n, reach;     /* cells; faces in Delta/2 */
     double delta, floor; /* (R) */
+    double home;         /* p of the bulk at phibar (1) */
     double *column;      /* column[0 .. n]: N (R) */
     double *band;        /* band[(j-1) width + k]: row j, column j - reach + k */
     double *rest;        /* rest[0 .. n-2]: residual, then step, of faces 1 .. n-1 */
+    struct cell *cell;   /* cell[1 .. n] */
     size_t width;        /* of a row of the band, with room for pivots */
 };
 
 static double fraction_in(const struct problem *q, size_t cell) {
     return (q->column[cell - 1] - q->column[cell]) / q->delta;
+}
+
+static void look(const struct problem *q, size_t c) {
+    const double h = 1e-5;
+    double phi = fraction_in(q, c), p = hydrostatic_bulk_of(q->bed, phi);
+    double wider = hydrostatic_fraction_of(q->bed, p * (1 + h));
+    double narrower = hydrostatic_fraction_of(q->bed, p * (1 - h));
+    double more = pressure(q->bed, q->home, p * (1 + h));
+    double less = pressure(q->bed, q->home, p * (1 - h));
+    q->cell[c] = (struct cell){.bulk = p,
+                               .pressure = pressure(q->bed, q->home, p),
+                               .bulk_slope = 2 * h * p / (wider - narrower),
+                               .pressure_slope = (more - less) / (2 * h * p)};
+}
+
+/* (P2 - P1)/L(p1, p2), and its slopes with phi below and above. */
+static double climb(const struct cell *below, const struct cell *above, double *slope_below,
+                    double *slope_above) {
+    double p1 = below->bulk, p2 = above->bulk, way = log(p2 / p1);
+    bool flat = fabs(way) < 1e-5;
+    double mean = flat ? (p1 + p2) / 2 : (p2 - p1) / way;
+    double out = (above->pressure - below->pressure) / mean;
+    double mean_below = flat ? 0.5 : (mean / p1 - 1) / way;
+    double mean_above = flat ? 0.5 : (1 - mean / p2) / way;
+    *slope_below = (-below->pressure_slope - out * mean_below) / mean * below->bulk_slope;
+    *slope_above = (above->pressure_slope - out * mean_above) / mean * above->bulk_slope;
+    return out;
 }
 
 static double *entry(const struct problem *q, size_t row, size_t face) {
@@ -110,36 +145,32 @@ static void add(const struct problem *q, size_t row, size_t face, double value) 
 
 static void write_row(const struct problem *q, size_t j) {
     const struct hydrostatic_bed *bed = q->bed;
-    double below = fraction_in(q, j), above = fraction_in(q, j + 1);
     double scale = bed->a_R / q->delta, z = q->floor + (double)j * q->delta;
     double half = bed->layer_R / 2, thickness = z + half - fmax(z - half, 0);
     size_t low = j > q->reach ? j - q->reach : 0;
     size_t high = j + q->reach < q->n ? j + q->reach : q->n;
     double lift = (q->column[low] - q->column[high]) / thickness - bed->phibar;
-    double h = 1e-5;
-    double d_below =
-        (climb(bed, below * (1 + h), above) - climb(bed, below * (1 - h), above)) / (2 * h * below);
-    double d_above =
-        (climb(bed, below, above * (1 + h)) - climb(bed, below, above * (1 - h))) / (2 * h * above);
-    q->rest[j - 1] = scale * climb(bed, below, above) - lift;
-    add(q, j, j - 1, scale * d_below / q->delta);
-    add(q, j, j, scale * (d_above - d_below) / q->delta);
-    add(q, j, j + 1, -scale * d_above / q->delta);
+    double below, above, rise = climb(&q->cell[j], &q->cell[j + 1], &below, &above);
+    q->rest[j - 1] = scale * rise - lift;
+    add(q, j, j - 1, scale * below / q->delta);
+    add(q, j, j, scale * (above - below) / q->delta);
+    add(q, j, j + 1, -scale * above / q->delta);
     add(q, j, low, -1 / thickness);
     add(q, j, high, 1 / thickness);
 }
 
 /* Gauss with rows exchanged for the largest pivot; the step is left in rest. */
 static bool eliminate(const struct problem *q) {
-    size_t m = q->n - 1, reach = q->reach;
+    size_t m = q->n - 1, reach = q->reach, wide = reach; /* 2 reach once rows were exchanged */
     for (size_t j = 1; j <= m; j++) {
-        size_t last = j + reach < m ? j + reach : m, end = j + 2 * reach < m ? j + 2 * reach : m;
-        size_t best = j;
+        size_t last = j + reach < m ? j + reach : m, best = j;
         for (size_t i = j + 1; i <= last; i++)
             if (fabs(*entry(q, i, j)) > fabs(*entry(q, best, j)))
                 best = i;
         if (!(fabs(*entry(q, best, j)) > 0))
             return false;
+        wide = best != j ? 2 * reach : wide;
+        size_t end = j + wide < m ? j + wide : m;
         for (size_t k = j; k <= end && best != j; k++) {
             double keep = *entry(q, j, k);
             *entry(q, j, k) = *entry(q, best, k);
@@ -158,7 +189,7 @@ static bool eliminate(const struct problem *q) {
         }
     }
     for (size_t j = m; j >= 1; j--) {
-        size_t end = j + 2 * reach < m ? j + 2 * reach : m;
+        size_t end = j + wide < m ? j + wide : m;
         for (size_t k = j + 1; k <= end; k++)
             q->rest[j - 1] -= *entry(q, j, k) * q->rest[k - 1];
         q->rest[j - 1] /= *entry(q, j, j);
@@ -188,6 +219,8 @@ static double apply(const struct problem *q) {
 static enum status iterate(const struct problem *q, struct fault *fault) {
     for (int round = 0; round < ROUNDS_MAX; round++) {
         memset(q->band, 0, (q->n - 1) * q->width * sizeof *q->band);
+        for (size_t c = 1; c <= q->n; c++)
+            look(q, c);
         for (size_t j = 1; j < q->n; j++)
             write_row(q, j);
         if (!eliminate(q))
@@ -242,7 +275,8 @@ static enum status set_up(const struct hydrostatic_bed *b, struct problem *q, st
     double hottest = hydrostatic_temperature(b, 0), tail = b->a_R * hottest / b->phibar;
     *q = (struct problem){.bed = b, .reach = cells_in_half_layer(b)};
     q->delta = b->layer_R / 2 / (double)q->reach;
-    q->floor = b->floor ? hydrostatic_depth_R(hydrostatic_bulk_of(b, b->phibar)) : 0;
+    q->home = hydrostatic_bulk_of(b, b->phibar);
+    q->floor = b->floor ? hydrostatic_depth_R(q->home) : 0;
     double height = b->column_R / b->phibar + 40 * b->a_R * hottest + 30 * tail;
     double cells = ceil(height / q->delta);
     if (!(cells < CELLS_MAX))
@@ -252,7 +286,8 @@ static enum status set_up(const struct hydrostatic_bed *b, struct problem *q, st
     q->column = calloc(q->n + 1, sizeof *q->column);
     q->rest = calloc(q->n, sizeof *q->rest);
     q->band = calloc(q->n * q->width, sizeof *q->band);
-    if (!q->column || !q->rest || !q->band)
+    q->cell = calloc(q->n + 1, sizeof *q->cell);
+    if (!q->column || !q->rest || !q->band || !q->cell)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for a bed of %zu cells", q->n);
     first_guess(q, tail);
     return STATUS_OK;
@@ -289,6 +324,7 @@ enum status hydrostatic_solve(const struct hydrostatic_bed *bed, struct hydrosta
     free(q.column);
     free(q.rest);
     free(q.band);
+    free(q.cell);
     return status;
 }
 
