@@ -121,9 +121,15 @@ static enum status follow(struct step *s, struct fault *fault) {
     if (!status)
         status = bed_track_kinematic(&s->change, &s->reading, time + first, count, &s->kinematic,
                                      NULL, fault);
-    if (!status)
+    if (!status) {
+        struct fault poor = FAULT_NONE; /* where a bed is unstable theory may have no solution */
         status = bed_track_pressure(&s->change, &s->reading, time + first, count, &s->pressure,
-                                    NULL, fault);
+                                    NULL, &poor);
+        if (status == STATUS_NUMERICAL)
+            status = STATUS_OK;
+        else if (status)
+            *fault = poor;
+    }
     free(scratch);
     return status;
 }
@@ -184,6 +190,10 @@ static double largest_distance(const double *seen, const double *theory, const b
 static enum status compare(const struct step *s, const struct bed_track *theory, size_t centre,
                            struct measurement *out, struct fault *fault) {
     size_t skip = s->still - 1, count = theory->count;
+    for (size_t i = centre; count == 0 && i <= centre + 2; i++)
+        observe_none(out, i, "the wave has no solution: the bed is unstable");
+    if (count == 0)
+        return STATUS_OK;
     bool *moving = calloc(2 * count, sizeof *moving), *apart = moving + count;
     if (!moving)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu samples", count);
@@ -222,7 +232,8 @@ static void find_rise(const struct step *s, struct measurement *out) {
         last++;
     out->value[STILL_RISE] = mean_of(s->seen.rise, 0, s->still - 1);
     out->value[RISE] = mean_of(s->seen.rise, s->still, last);
-    out->value[PRESSURE_RISE] = mean_of(s->pressure.rise, 1, last - s->still + 1);
+    out->value[PRESSURE_RISE] =
+        s->pressure.count > 0 ? mean_of(s->pressure.rise, 1, last - s->still + 1) : NAN;
 }
 
 /* -- state ------------------------------------------------------------------------------ */
@@ -271,6 +282,10 @@ static enum status add_curve(const char *name, const char *label, const struct b
                              const double *y, struct measurement *out, struct fault *fault) {
     double *own = calloc(2 * t->count, sizeof *own);
     size_t n = 0;
+    if (t->count == 0) {
+        free(own);
+        return STATUS_OK;
+    }
     if (!own)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for a curve");
     for (size_t k = 0; k < t->count; k++)
