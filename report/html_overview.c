@@ -85,6 +85,19 @@ static void put_worst(struct page *p) {
     fprintf(p->out, "</p>\n");
 }
 
+static void put_allowance(struct page *p) {
+    if (p->report->budget.statistical > 0) {
+        fprintf(p->out, "<p class=\"budget\">");
+        words_budget(p->out, p->report);
+        fprintf(p->out, "</p>\n");
+    }
+    if (p->report->bits.same + p->report->bits.other > 0) {
+        fprintf(p->out, "<p class=\"bits\">");
+        words_bits(p->out, p->report);
+        fprintf(p->out, "</p>\n");
+    }
+}
+
 static void put_skipped(struct page *p) {
     const struct report *r = p->report;
     if (report_tally(r).skipped == 0) {
@@ -192,6 +205,7 @@ void html_overview(struct page *p) {
     put_sentence(p);
     put_counts(p);
     put_worst(p);
+    put_allowance(p);
     put_skipped(p);
     put_facts(p);
     fprintf(p->out, "</header>\n<main id=\"cases\">\n");

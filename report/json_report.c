@@ -2,6 +2,8 @@
  *
  *     {"schema": "bedcheck-results 1", "suite", "tier", "solver", "solver_key", "started",
  *      "modified", "modification", "verdict", "counts": {pass, fail, inconclusive, known, skipped},
+ *      "budget": {allowed, share, statistical, judged, unknown, computed},
+ *      "bits": {same, other, unknown},
  *      "checks": [{case, point, check, observable, unit, measured, uncertainty, expected,
  *                  expected_uncertainty, tolerance, comparison, kind, verdict, because, reason,
  *                  runs: [id], values: [number], seeds: [integer], freedom, key,
@@ -61,6 +63,8 @@ static void put_values(struct json *j, const struct report_row *row) {
     put_real(j, "freedom", row->freedom);
     put_text(j, "key", row->key);
     put_text(j, "meaning", row->meaning);
+    json_key(j, "statistical");
+    json_boolean(j, row->statistical);
     put_real(j, "detectable", row->detectable);
     put_real(j, "alarm_rate", row->alarm_rate);
     put_text(j, "since", row->since);
@@ -115,6 +119,26 @@ static void put_head(struct json *j, const struct report *r) {
     json_end_object(j);
 }
 
+/* What unchanged code may do, and which runs are unchanged to the bit. */
+static void put_allowance(struct json *j, const struct report *r) {
+    struct report_alarms a = report_alarms(r);
+    json_key(j, "budget");
+    json_begin_object(j);
+    put_real(j, "allowed", r->budget.allowed);
+    put_real(j, "share", r->budget.share);
+    put_count(j, "statistical", r->budget.statistical);
+    put_count(j, "judged", a.rows);
+    put_count(j, "unknown", a.unknown);
+    put_real(j, "computed", a.sum);
+    json_end_object(j);
+    json_key(j, "bits");
+    json_begin_object(j);
+    put_count(j, "same", r->bits.same);
+    put_count(j, "other", r->bits.other);
+    put_count(j, "unknown", r->bits.unknown);
+    json_end_object(j);
+}
+
 static void put_skipped(struct json *j, const struct report *r) {
     json_key(j, "skipped");
     json_begin_array(j);
@@ -132,6 +156,7 @@ static void put_skipped(struct json *j, const struct report *r) {
 static void put_report(struct json *j, const struct report *r) {
     json_begin_object(j);
     put_head(j, r);
+    put_allowance(j, r);
     json_key(j, "checks");
     json_begin_array(j);
     for (size_t i = 0; i < r->case_count; i++) {

@@ -157,6 +157,11 @@ static void put_head(FILE *out, const struct report *r) {
     fprintf(out, "| %zu | %zu | %zu | %zu | %zu |\n", n.pass, n.fail, n.inconclusive, n.known,
             n.skipped);
     put_worst(out, r);
+    fputs(r->budget.statistical > 0 ? "\n" : "", out);
+    words_budget(out, r);
+    fputs(r->budget.statistical > 0 ? "\n\n" : "\n", out);
+    words_bits(out, r);
+    fputs(r->bits.same + r->bits.other > 0 ? "\n" : "", out);
     for (size_t i = 0; i < r->case_count; i++) {
         if (!r->cases[i].skipped)
             continue;

@@ -32,6 +32,19 @@ struct report_count report_tally(const struct report *r) {
     return count;
 }
 
+struct report_alarms report_alarms(const struct report *r) {
+    struct report_alarms a = {0};
+    for (size_t i = 0; i < r->case_count; i++) {
+        for (size_t k = 0; k < r->cases[i].row_count; k++) {
+            const struct report_row *row = &r->cases[i].row[k];
+            a.rows += row->statistical;
+            a.unknown += row->statistical && isnan(row->alarm_rate);
+            a.sum += row->statistical && !isnan(row->alarm_rate) ? row->alarm_rate : 0;
+        }
+    }
+    return a;
+}
+
 enum verdict report_verdict(const struct report *r) {
     struct report_count count = report_tally(r);
     if (count.fail > 0)

@@ -134,11 +134,24 @@ struct report_fact {
     const char *name, *value;
 };
 
+/* What unchanged code may do to a run of the suite. */
+struct report_budget {
+    double allowed,
+        share;          /* false alarms of the whole tier, and of each statistical row; 0: none */
+    size_t statistical; /* rows of the tier, judged here or not */
+};
+
+struct report_bits { /* runs with and without the bits of their reference */
+    size_t same, other, unknown;
+};
+
 struct report {
     const char *suite; /* "bedcheck 0.1.0" */
     const char *tier, *solver, *solver_key, *started;
     bool modified;            /* --set was used: the report says MODIFIED */
     const char *modification; /* "restitution=0.5" */
+    struct report_budget budget;
+    struct report_bits bits;
     size_t case_count, fact_count;
     const struct report_case *cases;
     const struct report_fact *fact; /* provenance: commit, machine, versions, times */
@@ -148,6 +161,11 @@ struct report_count {
     size_t pass, fail, inconclusive, known, skipped;
 };
 struct report_count report_tally(const struct report *r);
+struct report_alarms {    /* of the statistical rows that were judged */
+    size_t rows, unknown; /* unknown: rows without an ensemble to compute their rate from */
+    double sum;           /* of the known rates */
+};
+struct report_alarms report_alarms(const struct report *r);
 /* Fail before inconclusive before pass; known where there is nothing else. */
 enum verdict report_verdict(const struct report *r);
 /* Share of the tolerance that a row uses up: |measured-expected|/tolerance for "within", its

@@ -215,3 +215,37 @@ void words_sentence(FILE *out, const struct report *r) {
         fprintf(out, "; %zu case%s not run", n.skipped, n.skipped == 1 ? " was" : "s were");
     fprintf(out, ".");
 }
+
+void words_budget(FILE *out, const struct report *r) {
+    const struct report_budget *b = &r->budget;
+    struct report_alarms a = report_alarms(r);
+    if (!(b->allowed > 0) || b->statistical == 0)
+        return;
+    fprintf(out, "Unchanged code may raise a false alarm, fail or inconclusive, in %s of all runs ",
+            words_number(b->allowed).text);
+    fprintf(out, "of this tier: %s for each of its %zu statistical checks. ",
+            words_number(b->share).text, b->statistical);
+    if (a.rows == 0)
+        fprintf(out, "None of them was judged here.");
+    else if (a.unknown == a.rows)
+        fprintf(out, "None of the %zu judged here has an ensemble to compute its rate from.",
+                a.rows);
+    else
+        fprintf(out,
+                "Of the %zu judged here, the rates of %zu sum to %s; %zu have no ensemble to "
+                "compute theirs from.",
+                a.rows, a.rows - a.unknown, words_number(a.sum).text, a.unknown);
+}
+
+void words_bits(FILE *out, const struct report *r) {
+    const struct report_bits *b = &r->bits;
+    size_t known = b->same + b->other;
+    if (known == 0)
+        return;
+    fprintf(out, "%zu of %zu runs have the bits of their references: unchanged.", b->same, known);
+    if (b->other > 0)
+        fprintf(out, " %zu ha%s others: there statistics decide.", b->other,
+                b->other == 1 ? "s" : "ve");
+    if (b->unknown > 0)
+        fprintf(out, " For %zu more there are none of this class of build.", b->unknown);
+}

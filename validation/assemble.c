@@ -218,6 +218,16 @@ enum status assemble_report(const struct assemble_input *in, struct assembled **
     r->modification = join_settings(&b);
     b.fact = arena_take(&a->arena, MAX_FACTS, sizeof *b.fact);
     r->fact = b.fact;
+    if (in->budget != NULL)
+        r->budget = (struct report_budget){.allowed = SUITE_FALSE_ALARMS,
+                                           .share = in->budget->share,
+                                           .statistical = in->budget->statistical};
+    for (size_t i = 0; i < in->case_count; i++) {
+        const struct rows *rows = in->cases[i].rows;
+        r->bits.same += rows == NULL ? 0 : rows->bits.same;
+        r->bits.other += rows == NULL ? 0 : rows->bits.other;
+        r->bits.unknown += rows == NULL ? 0 : rows->bits.unknown;
+    }
     enum status status = r->suite == NULL || r->modification == NULL || b.fact == NULL
                              ? no_memory(&b)
                              : build_cases(&b);

@@ -23,6 +23,7 @@ struct assemble_input {
     const struct plan *plan;
     const struct outcome *outcome; /* outcome[0 .. plan->run_count-1] */
     const struct folder *folder;
+    const struct budget *budget; /* or NULL */
 };
 
 struct assembled {

@@ -239,8 +239,8 @@ enum status desk_file(struct desk *d, const struct folder_record *record, bool p
             .measured = d->measured[i],
             .rows = d->rows[i],
             .not_run = d->rows[i] == NULL ? "not run: stopped at the first failure (-x)" : NULL};
-    struct assemble_input in = {record,  cases,      d->plan->case_count,
-                                d->plan, d->outcome, d->execute->folder};
+    struct assemble_input in = {
+        record, cases, d->plan->case_count, d->plan, d->outcome, d->execute->folder, d->budget};
     enum status status = assemble_report(&in, &a, fault);
     if (status == STATUS_OK)
         status = write_all(d, &a->report, page, &a->arena, fault);

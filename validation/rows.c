@@ -18,6 +18,7 @@ struct clerk {
     struct fault *fault;
     const struct references *references; /* NULL: none */
     double share;                        /* of the false alarms; 0: no budget */
+    enum unchanged **bits;               /* bits[point][run] */
 };
 
 static enum status no_memory(struct clerk *k) {
@@ -129,6 +130,7 @@ struct draft {
     struct reference_key key;
     struct judge_question q;
     double *expected; /* q.expected, to be filled in from a reference */
+    struct unchanged_count bits;
     struct report_row row;
 };
 
@@ -206,6 +208,31 @@ static enum status consult(struct clerk *k, struct draft *d) {
     return STATUS_OK;
 }
 
+/* -- bits --------------------------------------------------------------------------- */
+
+static enum status look_at_bits(struct clerk *k) {
+    struct arena *a = &k->rows->arena;
+    enum status status = STATUS_OK;
+    k->bits = arena_take(a, k->m->point_count, sizeof *k->bits);
+    for (size_t p = 0; k->bits != NULL && status == STATUS_OK && p < k->m->point_count; p++) {
+        const struct measured_point *point = &k->m->point[p];
+        k->bits[p] = arena_take(a, point->run_count, sizeof *k->bits[p]);
+        for (size_t i = 0; k->bits[p] != NULL && status == STATUS_OK && i < point->run_count; i++) {
+            status = unchanged_look(k->m->plan, k->references, k->o->folder, point, &point->run[i],
+                                    &k->bits[p][i], k->fault);
+            unchanged_add(&k->rows->bits, k->bits[p][i]);
+        }
+        if (k->bits[p] == NULL)
+            return no_memory(k);
+    }
+    return k->bits == NULL ? no_memory(k) : status;
+}
+
+static void count_bits(const struct clerk *k, size_t point, struct draft *d) {
+    for (size_t i = 0; i < k->m->point[point].run_count; i++)
+        unchanged_add(&d->bits, k->bits[point][i]);
+}
+
 /* -- judging ---------------------------------------------------------------------- */
 
 /* Degrees of freedom of the uncertainty that the judge gives the mean. */
@@ -243,9 +270,13 @@ static double rate_of(struct clerk *k, const struct draft *d, const struct judge
     return alarm_rate(&a);
 }
 
-/* ", a change of 0.05 (4 %) is seen with 95 %" */
+/* "; a change of 0.05 (4 %) is seen with 95 %", and what the bits say. */
 static const char *tell_power(struct clerk *k, const struct draft *d, const char *reason) {
     double seen = d->row.detectable, e = d->row.expected;
+    if (reason != NULL && d->q.kind == KIND_REGRESSION && d->row.bits != NULL)
+        reason = arena_text(&k->rows->arena, "%s: %s", d->row.bits, reason);
+    if (reason == NULL)
+        return NULL;
     if (!isfinite(seen))
         return arena_copy(&k->rows->arena, reason);
     if (!(fabs(e) > 0))
@@ -267,6 +298,7 @@ static enum status end_row(struct clerk *k, struct draft *d, const struct measur
     row->freedom = freedom_of(&d->q);
     row->detectable = judge_detectable(&d->q);
     row->alarm_rate = rate_of(k, d, &answer);
+    row->bits = unchanged_text(&d->bits, &k->rows->arena);
     row->reason = tell_power(k, d, answer.reason);
     return row->reason == NULL ? no_memory(k) : add(k, row, point, d->check);
 }
@@ -299,6 +331,7 @@ static enum status judge_point(struct clerk *k, size_t index, const struct measu
     if (status == STATUS_OK)
         status = consult(k, &d);
     d.row.repeat = repeat_point(k, p);
+    count_bits(k, d.first, &d);
     return status == STATUS_OK ? end_row(k, &d, p) : status;
 }
 
@@ -310,8 +343,10 @@ static enum status judge_group(struct clerk *k, size_t index, size_t first) {
     if (status == STATUS_OK)
         status = begin_row(k, d.check, g.name, &d.row);
     for (size_t p = first; status == STATUS_OK && p < k->m->point_count; p++) {
-        if (rows_group_has(k->m, a, first, p))
-            status = list_runs(k, &k->m->point[p], &d.row);
+        if (!rows_group_has(k->m, a, first, p))
+            continue;
+        status = list_runs(k, &k->m->point[p], &d.row);
+        count_bits(k, p, &d);
     }
     if (status != STATUS_OK)
         return status;
@@ -405,7 +440,9 @@ enum status rows_judge(const struct measured_case *m, const struct execute_optio
     struct clerk k = {.m = m, .o = o, .rows = rows, .fault = fault};
     k.references = budget_references(budget, m->plan->file->name);
     k.share = budget == NULL ? 0 : budget->share;
-    enum status status = judge_all(&k);
+    enum status status = look_at_bits(&k);
+    if (status == STATUS_OK)
+        status = judge_all(&k);
     if (status != STATUS_OK) {
         rows_free(rows);
         return status;

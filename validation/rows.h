@@ -12,6 +12,7 @@
 #include "validation/budget.h"
 #include "validation/execute.h"
 #include "validation/measure.h"
+#include "validation/unchanged.h"
 
 struct rows {
     struct arena arena;
@@ -19,6 +20,7 @@ struct rows {
     struct report_row *row;              /* row[0 .. count-1] */
     const struct measured_point **point; /* point[i]: NULL for fits over a sweep and run rows */
     const struct case_check **check;     /* check[i]: NULL for run rows */
+    struct unchanged_count bits;         /* of all runs of the case */
 };
 
 /* `o` serves the commands that repeat a run; m must outlive the rows.  Without a budget there are

@@ -118,6 +118,16 @@ static inline void sample_know(struct sample *s) {
     s->first[1].reason = "known since 2026-11-20: 1.3137 lies above 1.2463";
 }
 
+/* Three statistical rows, one of unknown rate; three of four runs with the reference's bits. */
+static inline void sample_budget(struct sample *s) {
+    s->report.budget = (struct report_budget){.allowed = 1e-3, .share = 2.5e-6, .statistical = 400};
+    s->report.bits = (struct report_bits){.same = 3, .other = 1, .unknown = 2};
+    for (int i = 0; i < 3; i++)
+        s->first[i].statistical = true;
+    s->first[0].alarm_rate = 2.5e-6;
+    s->first[1].alarm_rate = 1.2e-5;
+}
+
 /* Two cases of five rows (2 pass, 2 fail, 1 inconclusive) and one that was skipped. */
 static inline void sample_fill(struct sample *s) {
     memset(s, 0, sizeof *s);

@@ -36,11 +36,14 @@ START_TEST(a_known_disagreement_has_a_colour_and_a_count_of_its_own) {
     struct sample s;
     sample_fill(&s);
     sample_know(&s);
+    sample_budget(&s);
     const char *folder = unit_folder();
     char *text = written(&s.report, folder);
     has(text, "<li class=\"known\"><strong>1</strong> known disagreement</li>");
     has(text, "<span class=\"verdict known\">");
     has(text, "<div class=\"trouble known\">");
+    has(text, "<p class=\"budget\">Unchanged code may raise a false alarm");
+    has(text, "<p class=\"bits\">3 of 4 runs have the bits");
     has(text, ".verdict.known{color:var(--known)");
     free(text);
     unit_remove(folder);

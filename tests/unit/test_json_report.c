@@ -92,8 +92,12 @@ START_TEST(a_known_disagreement_is_counted_and_dated) {
     struct sample s;
     sample_fill(&s);
     sample_know(&s);
+    sample_budget(&s);
     char *text = written(&s.report);
     ck_assert_ptr_nonnull(strstr(text, "\"known\": 1"));
+    ck_assert_ptr_nonnull(strstr(text, "\"statistical\": 400"));
+    ck_assert_ptr_nonnull(strstr(text, "\"computed\": 1.45"));
+    ck_assert_ptr_nonnull(strstr(text, "\"statistical\": true"));
     ck_assert_ptr_nonnull(strstr(text, "\"verdict\": \"known\""));
     ck_assert_ptr_nonnull(strstr(text, "\"since\": \"2026-11-20\""));
     free(text);

@@ -84,8 +84,11 @@ START_TEST(a_known_disagreement_has_a_count_and_a_sign_of_its_own) {
     size_t length;
     sample_fill(&s);
     sample_know(&s);
+    sample_budget(&s);
     char *text = written(&s.report, &length);
     has(text, "| 2 | 1 | 1 | 1 | 1 |");
+    has(text, "\n\nUnchanged code may raise a false alarm");
+    has(text, "\n\n3 of 4 runs have the bits");
     has(text, "### ≠ graingas/sedimentation: own law");
     has(text, "- known: known since 2026-11-20: 1.3137 lies above 1.2463");
     has(text, "| ≠ known | graingas/sedimentation | own law |");

@@ -64,6 +64,36 @@ START_TEST(a_known_disagreement_is_counted_and_decides_nothing) {
 }
 END_TEST
 
+static const char *text_of(void (*put)(FILE *, const struct report *), const struct report *r) {
+    static char text[600];
+    FILE *out = fmemopen(text, sizeof text, "w");
+    put(out, r);
+    fclose(out);
+    return text;
+}
+
+START_TEST(the_budget_and_the_bits_are_told) {
+    struct sample s;
+    sample_fill(&s);
+    ck_assert_str_eq(text_of(words_budget, &s.report), "");
+    ck_assert_str_eq(text_of(words_bits, &s.report), "");
+    sample_budget(&s);
+    struct report_alarms a = report_alarms(&s.report);
+    ck_assert(a.rows == 3 && a.unknown == 1);
+    ck_assert_double_eq_tol(a.sum, 1.45e-5, 1e-20);
+    const char *text = text_of(words_budget, &s.report);
+    ck_assert_msg(strstr(text, "for each of its 400 statistical checks") != NULL, "%s", text);
+    ck_assert_msg(strstr(text, "Of the 3 judged here, the rates of 2 sum to 1.45·10⁻⁵; 1 have") !=
+                      NULL,
+                  "%s", text);
+    text = text_of(words_bits, &s.report);
+    ck_assert_str_eq(text,
+                     "3 of 4 runs have the bits of their references: unchanged. 1 has others: "
+                     "there statistics decide. For 2 more there are none of this class of "
+                     "build.");
+}
+END_TEST
+
 START_TEST(nothing_judged_is_no_pass) {
     struct sample s;
     sample_fill(&s);
@@ -160,6 +190,7 @@ END_TEST
 int main(void) {
     const TTest *const tests[] = {rows_are_counted_and_a_failure_decides,
                                   a_known_disagreement_is_counted_and_decides_nothing,
+                                  the_budget_and_the_bits_are_told,
                                   nothing_judged_is_no_pass,
                                   margin_is_the_share_of_what_is_allowed,
                                   without_tolerance_only_equality_is_within,
