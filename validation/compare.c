@@ -115,8 +115,10 @@ static bool scatters(const struct results_row *a, const struct results_row *b) {
     return !(a->uncertainty == 0 && b->uncertainty == 0);
 }
 
+/* A bound that each seed must keep says nothing of the scatter below it: a change counts when it
+ * is as large as what the check allows. */
 static double rounding(const struct compare_row *r) {
-    if (strcmp(r->old->kind, "round-off") == 0)
+    if (strcmp(r->old->kind, "round-off") == 0 || !same_text(r->old->comparison, "within"))
         return r->unit;
     double largest = fmax(fabs(r->old->measured), fabs(r->new->measured));
     return sqrt(DBL_EPSILON) * fmax(largest, r->unit);

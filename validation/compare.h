@@ -19,8 +19,9 @@
  *
  * Values without scatter (uncertainty 0) are compared seed by seed, the largest change is
  * shown, and it is significant beyond rounding: beyond the tolerance itself for round-off
- * checks, whose tolerance bounds just that, else beyond 1.5e-8 (half of the digits of a
- * double) of the largest of |a|, |b| and T.  T of a one-sided check without margin is
+ * checks, whose tolerance bounds just that, and for bounds (at most, at least, outside) that
+ * each seed keeps for itself; else beyond 1.5e-8 (half of the digits of a double) of the
+ * largest of |a|, |b| and T.  T of a one-sided check without margin is
  * |expected|.  A number that is lost, and a run that fails on one side only, are significant.
  *
  * Source:     Student, Biometrika 6, 1 (1908).

@@ -16,7 +16,7 @@
  * Source:     Cochran, Sampling Techniques (1977), Eq. 6.13, for the ratio.
  * Leaves out: what made a machine slow for all runs of one folder and not of the other;
  *             runs made in turn (ci/compare-commits) suffer least from it.
- * Checked by: tests/unit/test_compare_runs.c.
+ * Checked by: tests/cli/test_bedcheck_compare.py.
  */
 #ifndef VALIDATION_COMPARE_RUNS_H
 #define VALIDATION_COMPARE_RUNS_H

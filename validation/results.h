@@ -8,7 +8,7 @@
  * among its twins.
  *
  * Leaves out: verdicts, which are the judge's (judge.h), and runs (compare_runs.h).
- * Checked by: tests/unit/test_results.c.
+ * Checked by: tests/cli/test_bedcheck_compare.py.
  */
 #ifndef VALIDATION_RESULTS_H
 #define VALIDATION_RESULTS_H

@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import h5py
 import pytest
 
 from bedcheck_fixtures import Bench, bench  # noqa: F401
@@ -213,6 +214,20 @@ def test_rounding_is_no_change(pair):
     edit(new, nudge)
     found, whole = rows(old, new)
     assert whole["exit_code"] == 0 and found[("fake/noisy", "overlap", "single")]["change"] == "same"
+
+
+@pytest.mark.parametrize("factor, parted", [(1 + 1e-15, None), (1 + 3e-5, None), (1.01, 1.37)])
+def test_the_first_sample_that_differs_is_found(pair, factor, parted):
+    old, new = pair()
+    name = sorted((new / "h5").glob("*.h5"))[2]
+    with h5py.File(name, "a") as file:
+        file["observables/largest_overlap/value"][1] *= factor
+    runs = {r["name"]: r for r in rows(old, new)[1]["runs"]}
+    run = runs.pop(name.stem)
+    assert run["bits"] == "differ" and run["first_time"] == 1.37 and run["parted_time"] == parted
+    assert run["first_dataset"] == "observables/largest_overlap" and run["first_step"] == 1
+    assert run["first_size"] == pytest.approx(1 - 1 / factor, rel=0.3)
+    assert all(r["bits"] == "unchanged" and r["first_time"] is None for r in runs.values())
 
 
 def test_costs_are_paired_by_run(pair):

@@ -189,6 +189,21 @@ START_TEST(round_off_checks_allow_their_tolerance) {
 }
 END_TEST
 
+START_TEST(a_bound_on_each_seed_allows_what_it_bounds) {
+    struct side a, b;
+    double value[SEEDS] = {.0137, .0151, .0129, .0143}, other[SEEDS] = {.0211, .0128, .0155, .0133};
+    fill(&a, value);
+    fill(&b, other);
+    a.row[0].uncertainty = b.row[0].uncertainty = 0;
+    a.row[0].comparison = b.row[0].comparison = "at most";
+    a.row[0].tolerance = b.row[0].tolerance = 0;
+    a.row[0].expected = b.row[0].expected = .05;
+    expect(&a, &b, CHANGE_SAME, 0);
+    b.value[2] = .0671;
+    expect(&a, &b, CHANGE_SIGNIFICANT, 1);
+}
+END_TEST
+
 START_TEST(an_unknown_number_never_compares_as_equal) {
     struct side a, b;
     fill_pair(&a, &b, 1, 0);
@@ -250,6 +265,7 @@ int main(void) {
                                   the_level_is_divided_over_the_rows,
                                   without_scatter_every_seed_counts,
                                   round_off_checks_allow_their_tolerance,
+                                  a_bound_on_each_seed_allows_what_it_bounds,
                                   an_unknown_number_never_compares_as_equal,
                                   other_runs_observables_seeds_are_not_comparable,
                                   an_ensemble_lends_its_degrees_of_freedom,
