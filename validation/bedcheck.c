@@ -1,6 +1,6 @@
 /* bedcheck.c -- the program: validation cases run, judged and reported.
  *
- *     bedcheck list | show | recipes | run | check | report | clean
+ *     bedcheck list | show | recipes | claims | run | check | report | clean
  *     bedcheck calibrate | accept | compare | history
  *
  * Only the command line is read here, one parser a command; command_*.c do the
@@ -242,6 +242,7 @@ static const struct argp_option accept_options[] = {
     {"reason", KEY_REASON, "TEXT", 0, "Why they change, in one line", 0},
     {"dry-run", KEY_DRY_RUN, 0, 0, "Show old and new; write nothing", 0},
     {0}};
+static const struct argp_option claims_options[] = {OPTION_CASES, {0}};
 static const struct argp_option no_options[] = {{0}};
 static const struct argp_option clean_options[] = {
     {"stale", KEY_STALE, 0, 0, "Only results of other solver builds than the last run's", 0}, {0}};
@@ -287,6 +288,10 @@ static int run_recipes(const struct command_options *o, const struct console *c)
     return command_recipes(c);
 }
 
+static int run_claims(const struct command_options *o, const struct console *c) {
+    return command_claims(o, c);
+}
+
 static int run_check(const struct command_options *o, const struct console *c) {
     return command_check(o, false, c);
 }
@@ -309,6 +314,8 @@ static const struct command commands[] = {
      1, command_show},
     {"recipes", "", "Name the observables, predictions, fits and figures that a case may use.",
      no_options, 0, 0, run_recipes},
+    {"claims", "", "Name the papers' claims and the checks that decide them.", claims_options, 0, 0,
+     run_claims},
     {"run", "[CASE|GLOB]...", "Run cases, judge them and write the report.", run_options, 0, 0,
      command_run},
     {"check", "DIR", "Judge the results in DIR again, without running anything.", check_options, 1,

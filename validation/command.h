@@ -48,6 +48,9 @@ int command_list(const struct command_options *o, const struct console *c);
 int command_show(const struct command_options *o, const struct console *c);
 int command_recipes(const struct console *c);
 
+/* command_claims.c: the claims of the papers and the checks that decide them. */
+int command_claims(const struct command_options *o, const struct console *c);
+
 /* command_run.c */
 int command_run(const struct command_options *o, const struct console *c);
 
