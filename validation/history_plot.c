@@ -120,7 +120,7 @@ static enum status put_overview(struct page *p) {
     }
     struct report_panel panel[] = {
         {.y_label = "checks", .series_count = 2, .series = &series[NOT_PASSED]},
-        {.y_label = "worst margin, %", .series_count = 1, .series = &series[MARGIN]},
+        {.y_label = "worst margin, %", .y_log = true, .series_count = 1, .series = &series[MARGIN]},
         {.y_label = "seconds", .series_count = 1, .series = &series[SECONDS]}};
     return put_figure(p, "The whole suite",
                       "Checks that did not pass; the largest share of a tolerance that any check "
