@@ -40,6 +40,11 @@ checks:
     margin: 0.001
     kind: round-off
     because: .37 and a thousandth of the overlap
+  - name: unchanged
+    observable: bed.largest_overlap
+    kind: regression
+    detects: 2 %
+    because: twenty times the scatter
 tiers:
   smoke: {}
   paper: {}
@@ -60,6 +65,13 @@ checks:
     margin: 0.001
     kind: round-off
     because: .37 and a thousandth of the overlap
+  - name: pair
+    observable: bed.solid_fraction_max
+    kind: regression
+    paired: true
+    margin: 1e-9
+    detects: 1e-8
+    because: the same seed of the same build gives the same number
 tiers: {smoke: {}, paper: {}}
 """
 
@@ -221,6 +233,48 @@ def test_mean_and_deviation_are_those_of_the_results(bench):
         assert len(values) == SEEDS
         assert float(line["value"]) == pytest.approx(statistics.mean(values), rel=1e-14)
         assert float(line["deviation"]) == pytest.approx(statistics.stdev(values), rel=1e-9)
+
+
+def test_paired_checks_get_the_values_of_the_own_seeds(bench):
+    bench.accept()
+    pairs = [x for x in bench.table("fake/second") if x["origin"] == "seed"]
+    assert [x["observable"] for x in pairs] == [
+        f"bed.solid_fraction_max@{seed}" for seed in range(1101, 1105)] * 2
+    for line in pairs:
+        assert float(line["value"]) == pytest.approx(0.3700213, abs=1e-6)
+        assert line["deviation"] == "-" and line["seeds"] == "1"
+
+
+def judge(bench):
+    """Exit code of judging the folder again, and what became of the regression checks."""
+    done = bench.bedcheck("check", bench.out, "--cases", bench.cases, "--references",
+                          bench.references)
+    found = {c["verdict"] for c in bench.results()["checks"] if c["kind"] == "regression"}
+    return done.returncode, found
+
+
+def test_no_reference_passes_by_itself(bench):
+    assert judge(bench) == (3, {"inconclusive"}) and bench.files() == []  # none is made on the spot
+    bench.accept(choice=["--case", "fake/steady"])
+    path = bench.references / "fake/steady.tsv"
+    text = "".join(lines_of(path))
+    path.write_text(text.replace("bed.largest_overlap", "bed.largest_overlp"), encoding="utf-8")
+    code, verdicts = judge(bench)
+    assert code in (2, 3) and verdicts <= {"inconclusive"}  # a mistyped one is none
+    path.write_text(text.replace("smoke", "paper"), encoding="utf-8")
+    code, verdicts = judge(bench)
+    assert code in (2, 3) and verdicts <= {"inconclusive"}  # nor is that of another tier
+    meaning = ensembles(bench.table())[0]["meaning"]
+    path.write_text(text.replace(meaning, "01234567"), encoding="utf-8")
+    assert judge(bench) == (3, {"inconclusive", "pass"})  # nor that of another text
+
+
+def test_accepted_references_judge_what_comes_after(bench):
+    bench.accept(choice=["--case", "fake/steady"])
+    code, verdicts = judge(bench)
+    assert code == 3 and verdicts == {"pass", "inconclusive"}  # fake/second has none yet
+    bench.shift(4e-4)  # 2 % of the overlap
+    assert judge(bench) == (1, {"fail", "inconclusive"})
 
 
 def test_only_what_changes_is_written_and_told_in_units_of_its_uncertainty(bench):
