@@ -154,7 +154,8 @@ struct report {
     struct report_bits bits;
     size_t case_count, fact_count;
     const struct report_case *cases;
-    const struct report_fact *fact; /* provenance: commit, machine, versions, times */
+    const struct report_fact *fact;     /* provenance: commit, machine, versions, times */
+    const struct report_ledger *ledger; /* the papers' claims (ledger.h), or NULL */
 };
 
 struct report_count {

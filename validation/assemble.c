@@ -2,7 +2,9 @@
 
 #include "common/build.h"
 #include "common/yaml.h"
+#include "validation/claims_judge.h"
 #include "validation/figures.h"
+#include "validation/papers.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -16,6 +18,7 @@ struct builder {
     struct assembled *out;
     struct arena *arena;
     struct report_fact *fact;
+    struct report_case *cases; /* = out->report.cases */
     struct fault *fault;
 };
 
@@ -117,10 +120,27 @@ static enum status build_cases(struct builder *b) {
     struct report *r = &b->out->report;
     struct report_case *cases = arena_take(b->arena, b->in->case_count, sizeof *cases);
     enum status status = cases == NULL ? no_memory(b) : STATUS_OK;
-    r->cases = cases;
+    r->cases = b->cases = cases;
     for (; status == STATUS_OK && r->case_count < b->in->case_count; r->case_count++)
         status = build_case(b, &b->in->cases[r->case_count], &cases[r->case_count]);
     return status;
+}
+
+static enum status build_ledger(struct builder *b) {
+    const struct assemble_input *in = b->in;
+    if (in->papers == NULL || in->papers->claims->count == 0)
+        return STATUS_OK;
+    const struct claims_input c = {.claims = in->papers->claims,
+                                   .stored = in->papers->stored,
+                                   .tier = in->plan->tier,
+                                   .cases = in->cases,
+                                   .report = b->cases,
+                                   .case_count = in->case_count};
+    struct report_ledger *ledger = arena_take(b->arena, 1, sizeof *ledger);
+    if (ledger == NULL)
+        return no_memory(b);
+    b->out->report.ledger = ledger;
+    return claims_judge(&c, b->arena, ledger, b->fault);
 }
 
 /* -- facts ---------------------------------------------------------------------- */
@@ -207,7 +227,7 @@ enum status assemble_report(const struct assemble_input *in, struct assembled **
     struct assembled *a = calloc(1, sizeof *a);
     if (a == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
-    struct builder b = {in, a, &a->arena, NULL, fault};
+    struct builder b = {in, a, &a->arena, NULL, NULL, fault};
     struct report *r = &a->report;
     r->suite = arena_text(&a->arena, "bedcheck %s", build_version());
     r->tier = in->record->tier;
@@ -231,6 +251,8 @@ enum status assemble_report(const struct assemble_input *in, struct assembled **
     enum status status = r->suite == NULL || r->modification == NULL || b.fact == NULL
                              ? no_memory(&b)
                              : build_cases(&b);
+    if (status == STATUS_OK)
+        status = build_ledger(&b);
     if (status == STATUS_OK)
         build_facts(&b);
     else {

@@ -9,6 +9,8 @@
 
 #include "validation/rows.h"
 
+struct papers;
+
 struct assemble_case {
     const struct plan_case *plan;
     const struct measured_case *measured; /* NULL: not judged, see plan->skip_reason or not_run */
@@ -24,6 +26,7 @@ struct assemble_input {
     const struct outcome *outcome; /* outcome[0 .. plan->run_count-1] */
     const struct folder *folder;
     const struct budget *budget; /* or NULL */
+    const struct papers *papers; /* or NULL; outlive the result */
 };
 
 struct assembled {

@@ -9,6 +9,9 @@ static enum status judge(const struct review *r, bool page, const struct console
     struct desk *desk = NULL;
     struct budget *budget = NULL;
     enum verdict worst = VERDICT_PASS;
+    struct folder_record record = r->record; /* claims stand beside the cases that are judged */
+    record.cases_folder = r->cases_folder;
+    record.references_folder = r->references_folder;
     enum status status =
         budget_open(r->cases_folder, r->references_folder, r->plan->tier, r->plan, &budget, fault);
     if (status == STATUS_OK)
@@ -18,7 +21,7 @@ static enum status judge(const struct review *r, bool page, const struct console
         status = desk_judge(desk, &worst, fault);
     }
     if (status == STATUS_OK)
-        status = desk_file(desk, &r->record, page, code, fault);
+        status = desk_file(desk, &record, page, code, fault);
     desk_free(desk);
     budget_close(budget);
     return status;

@@ -1,8 +1,8 @@
 /* command_list.c -- bedcheck list, show and recipes: what there is. */
 #include "validation/command.h"
 
-#include "validation/claims_stored.h"
 #include "validation/figures.h"
+#include "validation/papers.h"
 #include "validation/reference.h"
 #include "validation/selection.h"
 
@@ -80,17 +80,14 @@ static enum status check_references(const struct command_options *o, const struc
 }
 
 /* Claims are about all cases, and stored verdicts about all claims. */
-static enum status check_claims(const struct command_options *o, struct fault *fault) {
-    struct claims *claims = NULL;
-    struct claims_stored *stored = NULL;
+static enum status check_papers(const struct command_options *o, struct fault *fault) {
+    struct papers papers;
     struct fault found = FAULT_NONE;
     if (o->pattern_count + o->tag_count > 0 || o->tier_given)
         return STATUS_OK;
-    if (claims_load(o->cases_folder, &claims, &found) != STATUS_OK ||
-        claims_stored_load(o->references_folder, claims, &stored, &found) != STATUS_OK)
+    if (papers_open(o->cases_folder, o->references_folder, &papers, &found) != STATUS_OK)
         fault_add(fault, found.status, "%s", found.text);
-    claims_stored_free(stored);
-    claims_free(claims);
+    papers_close(&papers);
     return found.status;
 }
 
@@ -110,7 +107,7 @@ int command_list(const struct command_options *o, const struct console *c) {
     }
     for (size_t i = 0; i < s->count; i++)
         list_case(c->out, s->order[i].file);
-    check_claims(o, &fault);
+    check_papers(o, &fault);
     if (check_references(o, s, &fault) != STATUS_OK)
         fprintf(c->errors, "bedcheck: %s\n", fault.text);
     selection_free(s);

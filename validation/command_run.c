@@ -4,6 +4,7 @@
 #include "common/file.h"
 #include "validation/desk.h"
 #include "validation/earlier.h"
+#include "validation/papers.h"
 #include "validation/review.h"
 
 #include <math.h>
@@ -74,6 +75,15 @@ static enum status choose_cases(struct work *w) {
     return status == STATUS_OK ? budget_open(o->cases_folder, o->references_folder, request.tier,
                                              w->plan, &w->budget, w->fault)
                                : status;
+}
+
+/* What is wrong with the claims is told now, not after the last run. */
+static enum status check_papers(struct work *w) {
+    struct papers papers;
+    enum status status =
+        papers_open(w->o->cases_folder, w->o->references_folder, &papers, w->fault);
+    papers_close(&papers);
+    return status;
 }
 
 static enum status find_solver(struct work *w) {
@@ -277,7 +287,8 @@ int command_run(const struct command_options *o, const struct console *c) {
     struct work w = {.o = o, .console = c, .fault = &fault};
     int code = 2;
     if (check_settings(o, &fault) == STATUS_OK && choose_cases(&w) == STATUS_OK &&
-        find_solver(&w) == STATUS_OK && look_before(&w) == STATUS_OK)
+        check_papers(&w) == STATUS_OK && find_solver(&w) == STATUS_OK &&
+        look_before(&w) == STATUS_OK)
         code = o->dry_run ? tell_plan(&w) : run_plan(&w);
     if (fault.status != STATUS_OK)
         fprintf(c->errors, "bedcheck: %s\n", fault.text);

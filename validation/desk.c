@@ -1,6 +1,7 @@
 #include "validation/desk.h"
 
 #include "common/file.h"
+#include "validation/papers.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -227,10 +228,31 @@ static int exit_code_of(const struct report *r) {
     return n.fail > 0 ? 1 : n.inconclusive > 0 || n.pass == 0 ? 3 : 0;
 }
 
+/* What the papers claim, and which of it is another verdict than it was. */
+static void tell_claims(const struct desk *d, const struct report *r) {
+    size_t count[CLAIM_VERDICTS];
+    FILE *out = d->console->out;
+    if (r->ledger == NULL)
+        return;
+    for (size_t i = 0; i < r->case_count; i++) {
+        for (size_t k = 0; k < r->cases[i].row_count; k++) {
+            const struct report_row *row = &r->cases[i].row[k];
+            if (strcmp(row->kind, "claim") == 0 && row->verdict != VERDICT_PASS)
+                tell_row(out, row);
+        }
+    }
+    claim_tally(r->ledger, count);
+    fputs("claims of the papers:", out);
+    for (enum claim_verdict v = 0; v < CLAIM_VERDICTS; v++)
+        fprintf(out, "%s %zu %s", v == 0 ? "" : ",", count[v], claim_verdict_name(v));
+    fputc('\n', out);
+}
+
 enum status desk_file(struct desk *d, const struct folder_record *record, bool page, int *exit_code,
                       struct fault *fault) {
     struct assemble_case *cases = calloc(d->plan->case_count + 1, sizeof *cases);
     struct assembled *a = NULL;
+    struct papers papers;
     if (cases == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
     for (size_t i = 0; i < d->plan->case_count; i++)
@@ -239,16 +261,22 @@ enum status desk_file(struct desk *d, const struct folder_record *record, bool p
             .measured = d->measured[i],
             .rows = d->rows[i],
             .not_run = d->rows[i] == NULL ? "not run: stopped at the first failure (-x)" : NULL};
-    struct assemble_input in = {
-        record, cases, d->plan->case_count, d->plan, d->outcome, d->execute->folder, d->budget};
-    enum status status = assemble_report(&in, &a, fault);
+    struct assemble_input in = {record,    cases,      d->plan->case_count,
+                                d->plan,   d->outcome, d->execute->folder,
+                                d->budget, &papers};
+    enum status status =
+        papers_open(record->cases_folder, record->references_folder, &papers, fault);
+    if (status == STATUS_OK)
+        status = assemble_report(&in, &a, fault);
     if (status == STATUS_OK)
         status = write_all(d, &a->report, page, &a->arena, fault);
     if (status == STATUS_OK) {
+        tell_claims(d, &a->report);
         tell_last(d, &a->report, page);
         *exit_code = exit_code_of(&a->report);
     }
     assemble_free(a);
+    papers_close(&papers);
     free(cases);
     return status;
 }
