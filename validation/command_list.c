@@ -1,6 +1,7 @@
 /* command_list.c -- bedcheck list, show and recipes: what there is. */
 #include "validation/command.h"
 
+#include "validation/budget.h"
 #include "validation/figures.h"
 #include "validation/papers.h"
 #include "validation/reference.h"
@@ -32,9 +33,11 @@ static void list_case(FILE *out, const struct case_file *c) {
 
 /* -- the references of what is listed -------------------------------------------------- */
 
-static enum status check_references_of(const struct selection *s, enum tier tier,
+/* Lines of no use, and checks whose references cannot show what they say they detect. */
+static enum status check_references_of(const struct selection *s, enum tier tier, const char *cases,
                                        const char *folder, struct fault *fault) {
     struct plan *plan = NULL;
+    struct budget *budget = NULL;
     struct plan_order *order = calloc(s->count + 1, sizeof *order);
     size_t count = 0;
     if (order == NULL)
@@ -54,6 +57,9 @@ static enum status check_references_of(const struct selection *s, enum tier tier
             fault_add(fault, found.status, "%s", found.text);
         reference_free(r);
     }
+    if (fault->status == STATUS_OK && count > 0)
+        budget_open(cases, folder, tier, plan, &budget, fault);
+    budget_close(budget);
     plan_free(plan);
     free(order);
     return fault->status;
@@ -65,7 +71,7 @@ static enum status check_references(const struct command_options *o, const struc
     bool all = o->pattern_count + o->tag_count == 0 && !o->tier_given;
     for (enum tier t = 0; o->references_folder != NULL && t < TIER_COUNT; t++) {
         struct fault found = FAULT_NONE;
-        if (check_references_of(s, t, o->references_folder, &found) != STATUS_OK)
+        if (check_references_of(s, t, o->cases_folder, o->references_folder, &found) != STATUS_OK)
             fault_add(fault, found.status, "%s", found.text);
     }
     if (!all || o->references_folder == NULL)
