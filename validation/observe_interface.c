@@ -127,23 +127,42 @@ static void measure_foot(const struct bed *b, const double *profile, struct meas
         }
 }
 
+/* For figures: slabs of 1 R, or the run's own where these are thicker; the foot in the run's own.
+ */
+static enum status add_measured(const struct bed *b, const double *profile,
+                                const struct interface_fit *fit, struct measurement *out,
+                                struct fault *fault) {
+    size_t pool = (size_t)fmax(1, round(1 / b->fraction.bin_R)), n = b->fraction.bins / pool;
+    size_t foot = 0;
+    const double *height = b->fraction.height_R;
+    double *z = calloc(3 * n, sizeof *z), *mean = z + n, *smooth = mean + n;
+    if (!z)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a curve of %zu heights", n);
+    for (size_t k = 0; k < n; k++) {
+        for (size_t i = k * pool; i < (k + 1) * pool; i++) {
+            z[k] += height[i] / (double)pool;
+            mean[k] += profile[i] / (double)pool;
+        }
+        smooth[k] = interface_fit_at(fit, z[k]);
+    }
+    while (foot < b->fraction.bins && height[foot] < 10)
+        foot++;
+    enum status status = measurement_add_curve(out, "profile", "measured", z, mean, n, fault);
+    if (!status)
+        status = measurement_add_curve(out, "fit", "Eq. 14", z, smooth, n, fault);
+    if (!status)
+        status = measurement_add_curve(out, "foot", "measured", height, profile, foot, fault);
+    free(z);
+    return status;
+}
+
 static enum status add_curves(const struct bed *b, const double *profile,
                               const struct interface_fit *fit, struct measurement *out,
                               struct fault *fault) {
     static const char *const label[] = {"hydrostatic, one temperature",
                                         "hydrostatic, local temperature"};
     static const char *const name[] = {"hydrostatic", "hydrostatic-local"};
-    size_t n = b->fraction.bins;
-    const double *z = b->fraction.height_R;
-    double *y = malloc(n * sizeof *y);
-    if (!y)
-        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a curve of %zu heights", n);
-    for (size_t k = 0; k < n; k++)
-        y[k] = interface_fit_at(fit, z[k]);
-    enum status status = measurement_add_curve(out, "profile", "measured", z, profile, n, fault);
-    if (!status)
-        status = measurement_add_curve(out, "fit", "Eq. 14", z, y, n, fault);
-    free(y);
+    enum status status = add_measured(b, profile, fit, out, fault);
     for (size_t i = 0; i < 2 && !status; i++) {
         struct hydrostatic_profile solved;
         struct fault none = FAULT_NONE; /* a bed may have no stationary state: no curve */
@@ -438,8 +457,8 @@ static enum status measure_formation(struct run_view *v, const double *settings,
 static const char *const INTERFACE_DATASETS[] = {
     "profiles/packing_fraction", "profiles/temperature_xy",    "profiles/temperature_zz",
     "observables/collisions",    "observables/centre_of_mass", NULL};
-static const char *const INTERFACE_CURVES[] = {"profile",           "fit",      "hydrostatic",
-                                               "hydrostatic-local", "balanced", NULL};
+static const char *const INTERFACE_CURVES[] = {
+    "profile", "fit", "foot", "hydrostatic", "hydrostatic-local", "balanced", NULL};
 static const char *const FORMATION_DATASETS[] = {"profiles/packing_fraction",
                                                  "observables/collisions", NULL};
 static const char *const FORMATION_CURVES[] = {"sigma", "apart", NULL};

@@ -70,7 +70,7 @@ START_TEST(an_edge_is_measured_as_planted) {
     double error = fake_value(&m, r, "sigma_error"); /* of 60 frames; 10 a block */
     ck_assert_double_gt(error, 0.003);
     ck_assert_double_lt(error, 0.05);
-    ck_assert_uint_eq(m.curve_count, 5);
+    ck_assert_uint_eq(m.curve_count, 6);
     measurement_free(&m);
 }
 END_TEST
