@@ -48,6 +48,7 @@ static enum status read_numbers(struct run_view *v, struct bed_change *out, doub
                   {"thermal_energy_J", &energy},
                   {"temperature_scale", &hotter},
                   {"mass_kg", &mass},
+                  {"restitution", &out->restitution},
                   {"particles", count},
                   {"width_x_R", &width_R[0]},
                   {"width_y_R", &width_R[1]}};

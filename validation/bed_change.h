@@ -27,6 +27,7 @@ struct bed_change {
     double drag_per_s, exponent; /* gamma0, n */
     double pull_m_per_s2;        /* reduced gravity g' */
     double heat_m2_per_s2;       /* T/m */
+    double restitution;          /* of the wave with pressure */
     bool full;                   /* FZ Eq. 1 in place of Eq. 9 */
     bool inertia;                /* of the wave with pressure */
     bool sharp;                  /* starts as a sharp slab, not at rest */

@@ -36,6 +36,7 @@ static struct bed_change change_of(const double *in, enum wave wave, bool full) 
     if (wave != KINEMATIC) {
         c.heat_m2_per_s2 = in[11] * in[12] / in[13];
         c.layer_m = in[14] * in[8];
+        c.restitution = in[15];
     }
     return c;
 }
@@ -109,7 +110,7 @@ static double pressure_90(const double *in) {
 
 static double pressure_rate(const double *in) {
     struct bed_change c = change_of(in, PRESSURE, false);
-    return rate_of(&c, true, in[15]);
+    return rate_of(&c, true, in[16]);
 }
 
 static double inertial_90(const double *in) {
@@ -137,7 +138,7 @@ static double inertial_meeting(const double *in) {
 
 static double inertial_rate(const double *in) {
     struct bed_change c = change_of(in, INERTIAL, false);
-    return rate_of(&c, true, in[15]);
+    return rate_of(&c, true, in[16]);
 }
 
 /* gravity, contrast, scale, drag, phibar, exponent */
@@ -152,7 +153,7 @@ static double stream(const double *in) {
 #define STEP                                                                                       \
     "drag_per_s", "exponent", "gravity_m_per_s2", "density_contrast", "drive_scale", "particles",  \
         "width_x_R", "width_y_R", "radius_m", "phibar", "phibar_values"
-#define HEAT STEP, "thermal_energy_J", "temperature_scale", "mass_kg", "layer_R"
+#define HEAT STEP, "thermal_energy_J", "temperature_scale", "mass_kg", "layer_R", "restitution"
 
 const struct prediction PREDICT_STEP[PREDICT_STEP_COUNT] = {
     {.name = "kinematic-end-time",

@@ -91,10 +91,11 @@ static double upstream(const double *phi, size_t cells, size_t face, bool upward
 }
 
 static void find_fluxes(struct pressure_wave *w, double dt_s) {
-    double heat = w->change.heat_m2_per_s2;
+    double heat = w->change.heat_m2_per_s2, collide = (1 + w->change.restitution) / 2;
     for (size_t i = 0; i < w->cells; i++) {
-        w->push[i] = heat * w->phi[i] * spheres_compressibility(w->phi[i]);
-        w->stiff[i] = heat * spheres_stiffness(w->phi[i]);
+        double phi = w->phi[i];
+        w->push[i] = heat * phi * (1 + collide * (spheres_compressibility(phi) - 1));
+        w->stiff[i] = heat * (1 + collide * (spheres_stiffness(phi) - 1));
     }
     for (size_t f = 1; f < w->cells; f++) {
         double mean = layer_mean(w, f);

@@ -3,11 +3,13 @@
  *
  * Momentum without inertia at constant temperature, for the mean speed v of spheres at z,
  *
- *     phi v = phi v_k(<phi>, phibar) - mu d(phi Z(phi) T/m)/dz,   mu = 1/gamma
+ *     phi v = phi v_k(<phi>, phibar) - mu dp/dz,   mu = 1/gamma
+ *     p = (T/m) phi (1 + ((1 + eps)/2) (Z(phi) - 1))
  *     d phi/dt + d(phi v)/dz = 0,                    v = 0 at the floor           (1)
  *
  * with v_k the speed without pressure (bed_change.h) at the mean packing fraction <phi> of the
- * layer of thickness Delta about z, cut off at the floor, and Z of Carnahan and Starling. For T ->
+ * layer of thickness Delta about z, cut off at the floor, and Z of Carnahan and Starling; inelastic
+ * spheres press each other by (1 + eps)/2 of what elastic ones do.  For T ->
  * 0, Delta -> 0 this is the kinematic wave; at rest it is the hydrostatic balance.
  *
  * Finite volumes of a height of cell_m: v_k phi with the value upstream, its slope limited (van

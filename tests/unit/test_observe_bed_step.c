@@ -15,6 +15,7 @@ static struct bed_change bed(double after, bool full) {
                                .after = after,
                                .load_m = N * 4 * M_PI / 3 * R / (30.7 * 29.3),
                                .radius_m = R,
+                               .restitution = 0.83,
                                .layer_m = 9.3 * R,
                                .drag_per_s = 4.9,
                                .exponent = 4.65,
@@ -29,7 +30,7 @@ static struct fake_run start(const char *after, const char *drive, const char *c
     snprintf(more, sizeof more,
              "  phibar_times_s: [%s]\n  phibar_values: [%s]\n  drive: %s\n  start: from-file\n"
              "  layer_R: 9.3\n  gravity_m_per_s2: 9.7\n  density_contrast: 0.61\n"
-             "  drive_scale: 0.29\n",
+             "  drive_scale: 0.29\n  restitution: 0.83\n",
              changes, after, drive);
     return spheres_start(N, R, SIDE, "hard", more);
 }

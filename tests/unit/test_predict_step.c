@@ -28,6 +28,7 @@ static double at(const char *name, bool calibrated, double before, double after)
                  {"temperature_scale", calibrated ? 2.84 : 1},
                  {"mass_kg", 2.262e-6},
                  {"layer_R", 10},
+                 {"restitution", 0.7},
                  {"window_s", 0}};
     double input[PREDICTION_MAX_INPUTS] = {0};
     for (size_t i = 0; p->input[i]; i++) {

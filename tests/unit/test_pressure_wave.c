@@ -16,6 +16,7 @@ static struct bed_change bed(double before, double after, double heat, double la
                                .after = after,
                                .load_m = 1e4 * 4 * M_PI / 3 * R / 900,
                                .radius_m = R,
+                               .restitution = 1,
                                .layer_m = layer * R,
                                .drag_per_s = 5,
                                .exponent = 4.65,
