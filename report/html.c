@@ -62,6 +62,7 @@ static enum status put_page(struct page *p, struct fault *fault) {
     put_head(p);
     fprintf(p->out, "<body id=\"top\">\n<a class=\"skip\" href=\"#cases\">Skip to the cases</a>\n");
     html_overview(p);
+    html_ledger(p);
     for (size_t i = 0; i < p->report->case_count && !status; i++)
         status = html_case(p, &p->report->cases[i], fault);
     fprintf(p->out, "</main>\n<footer><p>Written by ");

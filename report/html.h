@@ -36,6 +36,7 @@ void html_pre(struct page *p, const char *text);
 
 const char *html_style(void);       /* html_style.c */
 void html_overview(struct page *p); /* html_overview.c */
+void html_ledger(struct page *p);   /* html_ledger.c: what the papers claim; nothing if NULL */
 enum status html_case(struct page *p, const struct report_case *c, struct fault *fault);
 void html_rows(struct page *p, const struct report_case *c);    /* html_rows.c */
 void html_margin(struct page *p, const struct report_row *row); /* html_rows.c */

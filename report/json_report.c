@@ -7,12 +7,14 @@
  *      "checks": [{case, point, check, observable, unit, measured, uncertainty, expected,
  *                  expected_uncertainty, tolerance, comparison, kind, verdict, because, reason,
  *                  runs: [id], values: [number], seeds: [integer], freedom, key,
- *                  meaning, *                  detectable, alarm_rate, since, bits}],
+ *                  meaning, detectable, alarm_rate, since, bits}],
+ *      "claims": [see json_claims.c],
  *      "skipped": [{case, reason}],
  *      "provenance": {name: value}}
  *
  * Strict JSON: a number that is none is null, and `reason` then says why.
  */
+#include "report/json_claims.h"
 #include "report/report.h"
 #include "report/sheet.h"
 
@@ -164,6 +166,7 @@ static void put_report(struct json *j, const struct report *r) {
             put_row(j, &r->cases[i].row[k]);
     }
     json_end_array(j);
+    json_claims(j, r);
     put_skipped(j, r);
     json_key(j, "provenance");
     json_begin_object(j);

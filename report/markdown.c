@@ -5,11 +5,13 @@
  * 1 MB: rows that do not fit are counted, and results.json has them all.
  */
 #include "report/escape.h"
+#include "report/ledger.h"
 #include "report/report.h"
 #include "report/sheet.h"
 #include "report/words.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { DETAIL_LIMIT = 600 * 1000, SIZE_LIMIT = 980 * 1000, ONE_ROW_LIMIT = 60 * 1000 };
 
@@ -173,6 +175,27 @@ static void put_head(FILE *out, const struct report *r) {
     }
 }
 
+/* Counts, and each claim whose stored verdict is another. */
+static void put_claims(FILE *out, const struct report *r) {
+    size_t count[CLAIM_VERDICTS];
+    if (!r->ledger)
+        return;
+    claim_tally(r->ledger, count);
+    fprintf(out, "\nClaims of the papers:");
+    for (enum claim_verdict v = 0; v < CLAIM_VERDICTS; v++)
+        fprintf(out, "%s %zu %s", v == 0 ? "" : ",", count[v], claim_verdict_name(v));
+    fprintf(out, ".\n");
+    for (size_t i = 0; i < r->ledger->count; i++) {
+        const struct report_claim *c = &r->ledger->claim[i];
+        if (!c->stored || !c->is_tested || !strcmp(c->stored, claim_verdict_name(c->verdict)))
+            continue;
+        fprintf(out, "\nClaim %s: %s, stored as %s: ", c->id, claim_verdict_name(c->verdict),
+                c->stored);
+        escape_markdown(out, c->reason);
+        fprintf(out, "\n");
+    }
+}
+
 static void put_facts(FILE *out, const struct report *r) {
     fprintf(out, "\n## Where it comes from\n\n");
     put_item(out, "started", r->started);
@@ -194,6 +217,7 @@ enum status report_write_markdown(const struct report *r, const char *path, stru
     if (status)
         return status;
     put_head(sheet.out, r);
+    put_claims(sheet.out, r);
     put_facts(sheet.out, r);
     if (n.fail + n.inconclusive + n.known > 0) {
         fprintf(sheet.out, "\n## Failed, undecided, or known to disagree\n");

@@ -202,13 +202,11 @@ static enum status add_row(struct court *k, const struct report_claim *c, const 
         .case_name = in->name,
         .point = "",
         .check = arena_text(k->arena, "claim %s", c->id),
-        .observable = "verdict",
+        .observable = "verdict is the stored one",
         .unit = "1",
-        .measured = NAN,
-        .uncertainty = NAN,
-        .expected = NAN,
-        .expected_uncertainty = NAN,
-        .tolerance = NAN,
+        .measured = open ? NAN : same, /* 1: as it was */
+        .expected = 1,
+        .uncertainty = open ? NAN : 0,
         .comparison = "within",
         .kind = "claim",
         .verdict = same   ? VERDICT_PASS
@@ -219,7 +217,7 @@ static enum status add_row(struct court *k, const struct report_claim *c, const 
                              same ? date : c->stored, date, c->reason),
         .repeat = arena_text(k->arena, "bedcheck run %s --tier %s", in->name,
                              case_tier_name(k->in->tier)),
-        .freedom = NAN,
+        .freedom = INFINITY,
         .detectable = NAN,
         .alarm_rate = NAN};
     const struct report_row *added = &row[in->row_count];
