@@ -61,6 +61,13 @@ static double share(double a, double b) {
     return a > 0 ? (double)INFINITY : 0;
 }
 
+/* What is left of the way from the best value, 1, down to a limit below it: a share asleep of
+ * .9998 that must be at least .99 has used 2 % of what it may lack, not 99 % of the limit. */
+static bool is_share(const struct report_row *row) {
+    bool is_number = !row->unit || !*row->unit || strcmp(row->unit, "1") == 0;
+    return is_number && row->expected >= .5 && row->expected < 1;
+}
+
 /* "At most e + t" without a tolerance (t = 0) and of one sign has the share m/e of its limit:
  * an overlap of .03 under a limit of .05 uses 60 % of it.  With one, only what lies beyond e
  * counts, as it does for "within". */
@@ -77,6 +84,8 @@ double report_margin_used(const struct report_row *row) {
         return (double)NAN;
     if (strcmp(how, "at most") == 0)
         return one_sided(m - e, m, e, t);
+    if (strcmp(how, "at least") == 0 && t == 0 && is_share(row))
+        return fmax(1 - m, 0) / (1 - e);
     if (strcmp(how, "at least") == 0)
         return one_sided(e - m, e, m, t);
     if (strcmp(how, "outside") == 0)

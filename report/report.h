@@ -169,8 +169,11 @@ struct report_alarms {    /* of the statistical rows that were judged */
 struct report_alarms report_alarms(const struct report *r);
 /* Fail before inconclusive before pass; known where there is nothing else. */
 enum verdict report_verdict(const struct report *r);
-/* Share of the tolerance that a row uses up: |measured-expected|/tolerance for "within", its
- * like for the one-sided comparisons (report.c); 1 is the limit, NaN where nothing was measured. */
+/* Share of the tolerance that a row uses up; 1 is the limit, NaN where nothing was measured.
+ * |measured-expected|/tolerance for "within" and its inverse for "outside".  One-sided with a
+ * tolerance: what lies beyond expected, of it.  Without one, the way from the best value to the
+ * limit: from 0 for "at most", from above for "at least" (limit/measured), from 1 for a share that
+ * must be at least a half or more. */
 double report_margin_used(const struct report_row *row);
 /* The worst failed row, else the tightest other one: largest margin used; NULL if none. */
 const struct report_row *report_worst(const struct report *r);

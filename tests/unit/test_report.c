@@ -117,6 +117,24 @@ START_TEST(margin_is_the_share_of_what_is_allowed) {
 }
 END_TEST
 
+static double used_share(const char *comparison, double measured, double expected) {
+    struct report_row row = row_of(comparison, measured, expected, 0);
+    row.unit = "1";
+    return report_margin_used(&row);
+}
+
+START_TEST(a_share_near_one_has_used_little) {
+    ck_assert_double_eq_tol(used_share("at least", .9998, .99), .02, 1e-12);
+    ck_assert_double_eq_tol(used_share("at least", .9461, .9), .539, 1e-12);
+    ck_assert_double_eq_tol(used_share("at least", .99, .99), 1, 1e-12);
+    ck_assert_double_gt(used_share("at least", .97, .99), 1); /* beyond its limit */
+    ck_assert_double_eq(used_share("at least", 1.0137, .99), 0);
+    ck_assert_double_eq_tol(used_share("at least", 25, 8), .32, 1e-12); /* a count is no share */
+    ck_assert_double_eq_tol(used_share("at least", .37, .15), .15 / .37, 1e-12);
+    ck_assert_double_eq_tol(used("at least", 1.21, .98, 0), .98 / 1.21, 1e-12); /* has a unit */
+}
+END_TEST
+
 START_TEST(without_tolerance_only_equality_is_within) {
     ck_assert_double_eq(used("within", 1.37e-6, 1.37e-6, 0), 0);
     ck_assert(isinf(used("within", 1.38e-6, 1.37e-6, 0)));
@@ -193,6 +211,7 @@ int main(void) {
                                   the_budget_and_the_bits_are_told,
                                   nothing_judged_is_no_pass,
                                   margin_is_the_share_of_what_is_allowed,
+                                  a_share_near_one_has_used_little,
                                   without_tolerance_only_equality_is_within,
                                   the_worst_row_is_a_failed_one_without_a_number,
                                   an_uncertainty_has_two_digits_and_cuts_the_value,
