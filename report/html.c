@@ -1,13 +1,14 @@
 /* html.c -- index.html as a whole; see html.h. */
-#include "report/html.h"
 
 #include "report/escape.h"
 #include "report/sheet.h"
 #include "report/words.h"
 
+#include "common/digest.h"
 #include "common/file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 void html_text(struct page *p, const char *before, const char *text, const char *after) {
     fputs(before, p->out);
@@ -45,10 +46,26 @@ void html_pre(struct page *p, const char *text) {
     fputs("</code></pre>\n", p->out);
 }
 
+/* Only this script may run: the policy names its digest. */
+static void put_script_source(struct page *p) {
+    struct digest d;
+    char bytes[(DIGEST_SIZE - 1) / 2];
+    digest_bytes(html_script(), strlen(html_script()), &d);
+    for (size_t i = 0; i < sizeof bytes; i++) {
+        const char pair[] = {d.hex[2 * i], d.hex[2 * i + 1], '\0'};
+        bytes[i] = (char)strtol(pair, NULL, 16);
+    }
+    fputs("'sha256-", p->out);
+    escape_base64(p->out, bytes, sizeof bytes);
+    fputc('\'', p->out);
+}
+
 static void put_head(struct page *p) {
     fprintf(p->out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                     "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-                    "style-src 'unsafe-inline'; img-src data:\">\n"
+                    "style-src 'unsafe-inline'; img-src data:; script-src ");
+    put_script_source(p);
+    fprintf(p->out, "\">\n"
                     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
                     "<meta name=\"color-scheme\" content=\"light dark\">\n<title>");
     fprintf(p->out, "%s%s: ", p->report->modified ? "MODIFIED, " : "", words_headline(p->report));
@@ -62,13 +79,18 @@ static enum status put_page(struct page *p, struct fault *fault) {
     put_head(p);
     fprintf(p->out, "<body id=\"top\">\n<a class=\"skip\" href=\"#cases\">Skip to the cases</a>\n");
     html_overview(p);
+    fprintf(p->out, "<main id=\"cases\">\n");
+    html_matrix(p);
+    if ((status = html_cover(p, fault)) || (status = html_agreement(p, fault)))
+        return status;
     html_ledger(p);
     for (size_t i = 0; i < p->report->case_count && !status; i++)
         status = html_case(p, &p->report->cases[i], fault);
+    html_origin(p);
     fprintf(p->out, "</main>\n<footer><p>Written by ");
     html_text(p, "", p->report->suite,
               ". The same rows are in results.json, junit.xml and summary.md.</p></footer>\n");
-    fprintf(p->out, "</body>\n</html>\n");
+    fprintf(p->out, "<script>%s</script>\n</body>\n</html>\n", html_script());
     return status;
 }
 

@@ -132,7 +132,7 @@ done:
     return status;
 }
 
-static enum status figure(struct page *p, const struct report_figure *f, struct fault *fault) {
+enum status html_figure(struct page *p, const struct report_figure *f, struct fault *fault) {
     char prefix[32];
     struct sheet svg = {0};
     snprintf(prefix, sizeof prefix, "figure%zu-", ++p->figures);
@@ -185,7 +185,7 @@ enum status html_media(struct page *p, const struct report_case *c, struct fault
     if (has_pictures)
         fprintf(p->out, "</div>\n");
     for (size_t i = 0; i < c->figure_count && !status; i++)
-        status = figure(p, &c->figure[i], fault);
+        status = html_figure(p, &c->figure[i], fault);
     for (size_t i = 0; i < c->table_count && !status; i++)
         table(p, &c->table[i]);
     return status ? fault_within(fault, "case %s", c->name) : STATUS_OK;

@@ -1,12 +1,11 @@
-/* html_overview.c -- the first screen: verdict, counts, worst margin, what was not run, where it
- * comes from, and the matrix of cases. */
+/* html_overview.c -- the first screen: verdict, counts, and four answers: the worst margin, what
+ * changed since the reference, what is not covered, which code on which machine. */
 #include "report/html.h"
 
 #include "report/words.h"
 
 #include <math.h>
-
-enum { MAX_SYMBOLS = 60, RANKS = 5 };
+#include <string.h>
 
 static void put_banner(struct page *p) {
     const struct report *r = p->report;
@@ -69,10 +68,10 @@ static void put_worst(struct page *p) {
         return;
     const struct report_case *c = case_of(p->report, row, &index);
     double used = report_margin_used(row);
-    fprintf(p->out, "<p class=\"worst\">%s: ",
+    fprintf(p->out, "<dt>%s</dt>\n<dd class=\"worst\"><p>",
             row->verdict == VERDICT_FAIL ? "Worst failure" : "Tightest margin");
     if (isnan(used))
-        fprintf(p->out, "nothing measured by <a href=\"#");
+        fprintf(p->out, "Nothing measured by <a href=\"#");
     else
         fprintf(p->out, "<strong>%s</strong> of its tolerance used by <a href=\"#",
                 words_margin(used).text);
@@ -82,36 +81,58 @@ static void put_worst(struct page *p) {
     html_text(p, "", row->point, "</a>");
     if (row->verdict != VERDICT_PASS)
         html_text(p, ": ", row->reason, "");
-    fprintf(p->out, "</p>\n");
+    else
+        fprintf(p->out, ": %s, accepted %s", words_measured(row->measured, row->uncertainty).text,
+                words_accepted(row).text);
+    fprintf(p->out, "</p></dd>\n");
 }
 
-static void put_allowance(struct page *p) {
-    if (p->report->budget.statistical > 0) {
-        fprintf(p->out, "<p class=\"budget\">");
-        words_budget(p->out, p->report);
-        fprintf(p->out, "</p>\n");
-    }
-    if (p->report->bits.same + p->report->bits.other > 0) {
+static void put_changes(struct page *p) {
+    const struct report *r = p->report;
+    fprintf(p->out, "<dt>Since the reference</dt>\n<dd><p class=\"changes\">");
+    words_changes(p->out, r);
+    fprintf(p->out, "</p>\n");
+    if (r->bits.same + r->bits.other > 0) {
         fprintf(p->out, "<p class=\"bits\">");
-        words_bits(p->out, p->report);
+        words_bits(p->out, r);
         fprintf(p->out, "</p>\n");
     }
+    if (r->budget.statistical > 0) {
+        fprintf(p->out, "<p class=\"budget\">");
+        words_budget(p->out, r);
+        fprintf(p->out, "</p>\n");
+    }
+    fprintf(p->out, "</dd>\n");
 }
 
 static void put_skipped(struct page *p) {
     const struct report *r = p->report;
-    if (report_tally(r).skipped == 0) {
-        fprintf(p->out, "<p class=\"notrun\">Every selected case was run.</p>\n");
-        return;
-    }
-    fprintf(p->out, "<div class=\"notrun\"><p>Not run, and so not judged:</p>\n<ul>\n");
+    fprintf(p->out, "<p>Not run, and so not judged:</p>\n<ul>\n");
     for (size_t i = 0; i < r->case_count; i++) {
         if (!r->cases[i].skipped)
             continue;
         html_text(p, "<li><code>", r->cases[i].name, "</code>: ");
         html_text(p, "", r->cases[i].skip_reason, "</li>\n");
     }
-    fprintf(p->out, "</ul></div>\n");
+    fprintf(p->out, "</ul>\n");
+}
+
+static void put_not_covered(struct page *p) {
+    const struct report *r = p->report;
+    fprintf(p->out, "<dt>Not covered</dt>\n<dd class=\"notrun\">");
+    if (report_tally(r).skipped > 0)
+        put_skipped(p);
+    fprintf(p->out, "<p>%s", report_tally(r).skipped > 0 ? "" : "Every selected case was run. ");
+    if (r->unselected_count > 0)
+        fprintf(p->out, "%zu more case%s of this tier w%s not asked for. ", r->unselected_count,
+                r->unselected_count == 1 ? "" : "s", r->unselected_count == 1 ? "as" : "ere");
+    fprintf(p->out, "<a href=\"#cover\">What no check here can see</a>");
+    for (size_t i = 0; i < r->limit_count && i < 3; i++)
+        html_text(p, i == 0 ? ": " : "; ", r->limit[i].what, "");
+    fprintf(p->out, "%s</p></dd>\n",
+            r->limit_count > 3   ? "; and more."
+            : r->limit_count > 0 ? "."
+                                 : " has a section of its own.");
 }
 
 static void put_fact(struct page *p, const char *name, const char *value) {
@@ -121,80 +142,34 @@ static void put_fact(struct page *p, const char *name, const char *value) {
     html_text(p, "", value, "</li>\n");
 }
 
-static void put_facts(struct page *p) {
+/* Commit and machine belong on the first screen, versions of libraries at the end. */
+static bool is_first(const struct report_fact *f) {
+    static const char *const first[] = {"commit", "dirty", "cpu", "host", "all runs"};
+    size_t length = strlen(f->name);
+    for (size_t i = 0; i < sizeof first / sizeof *first; i++) {
+        size_t n = strlen(first[i]);
+        if (length >= n && strcmp(f->name + length - n, first[i]) == 0)
+            return true;
+    }
+    return false;
+}
+
+static void put_facts(struct page *p, bool first) {
     const struct report *r = p->report;
-    fprintf(p->out, "<h2 class=\"quiet\">Where it comes from</h2>\n<ul class=\"facts\">\n");
-    put_fact(p, "suite", r->suite);
-    put_fact(p, "tier", r->tier);
-    put_fact(p, "started", r->started);
-    put_fact(p, "solver", r->solver);
-    put_fact(p, "solver key", r->solver_key);
-    for (size_t i = 0; i < r->fact_count; i++)
-        put_fact(p, r->fact[i].name, r->fact[i].value);
+    fprintf(p->out, "<ul class=\"facts\">\n");
+    put_fact(p, first ? "started" : "suite", first ? r->started : r->suite);
+    put_fact(p, first ? "solver" : "solver key", first ? r->solver : r->solver_key);
+    for (size_t i = 0; i < r->fact_count; i++) {
+        if (is_first(&r->fact[i]) == first)
+            put_fact(p, r->fact[i].name, r->fact[i].value);
+    }
     fprintf(p->out, "</ul>\n");
 }
 
-static void put_symbols(struct page *p, const struct report_case *c) {
-    static const char *const symbol[] = {"✓", "✗", "?", "≠"};
-    fprintf(p->out, "<td class=\"symbols\" aria-hidden=\"true\">");
-    for (size_t i = 0; i < c->row_count && i < MAX_SYMBOLS; i++)
-        fprintf(p->out, "<i class=\"%s\">%s</i>", verdict_name(c->row[i].verdict),
-                symbol[c->row[i].verdict]);
-    fprintf(p->out, "%s</td>", c->row_count > MAX_SYMBOLS ? "…" : "");
-}
-
-static void put_matrix_row(struct page *p, const struct report_case *c) {
-    struct report one = {.cases = c, .case_count = 1};
-    struct report_count n = report_tally(&one);
-    fprintf(p->out, "<tr><td>");
-    if (c->row_count == 0)
-        fprintf(p->out,
-                "<span class=\"verdict skipped\"><span class=\"symbol\" "
-                "aria-hidden=\"true\">–</span> %s</span>",
-                c->skipped ? "not run" : "no check");
-    else
-        html_verdict(p, html_case_verdict(c));
-    fprintf(p->out, "</td><th scope=\"row\"><a href=\"#");
-    html_case_id(p, c);
-    html_text(p, "\">", c->name, "</a>");
-    html_text(p, "<span class=\"title\">", c->title, "</span></th>");
-    fprintf(p->out,
-            "<td class=\"num\">%zu</td><td class=\"num\">%zu</td><td class=\"num\">%zu</td>"
-            "<td class=\"num\">%zu</td>",
-            n.pass, n.fail, n.inconclusive, n.known);
-    put_symbols(p, c);
-    fprintf(p->out, "<td>");
-    if (report_worst(&one))
-        html_margin(p, report_worst(&one));
-    fprintf(p->out, "</td></tr>\n");
-}
-
-/* What needs a look stands first; within a rank the order of the cases stays. */
-static int rank_of(const struct report_case *c) {
-    if (c->row_count == 0)
-        return RANKS - 1;
-    static const int rank[] = {
-        [VERDICT_FAIL] = 0, [VERDICT_INCONCLUSIVE] = 1, [VERDICT_KNOWN] = 2, [VERDICT_PASS] = 3};
-    return rank[html_case_verdict(c)];
-}
-
-static void put_matrix(struct page *p) {
-    fprintf(p->out, "<h2>Cases</h2>\n<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-                    "aria-label=\"Verdict of each case\">\n<table class=\"matrix\">\n<thead><tr>"
-                    "<th scope=\"col\">Verdict</th><th scope=\"col\">Case</th>"
-                    "<th scope=\"col\" class=\"num\">Pass</th>"
-                    "<th scope=\"col\" class=\"num\">Fail</th>"
-                    "<th scope=\"col\" class=\"num\">Inconclusive</th>"
-                    "<th scope=\"col\" class=\"num\">Known</th>"
-                    "<th scope=\"col\" aria-hidden=\"true\">Check by check</th>"
-                    "<th scope=\"col\">Worst margin used</th></tr></thead>\n<tbody>\n");
-    for (int rank = 0; rank < RANKS; rank++) {
-        for (size_t i = 0; i < p->report->case_count; i++) {
-            if (rank_of(&p->report->cases[i]) == rank)
-                put_matrix_row(p, &p->report->cases[i]);
-        }
-    }
-    fprintf(p->out, "</tbody></table></div>\n");
+void html_origin(struct page *p) {
+    fprintf(p->out, "<section id=\"origin\">\n<h2>Where it comes from</h2>\n");
+    put_facts(p, false);
+    fprintf(p->out, "</section>\n");
 }
 
 void html_overview(struct page *p) {
@@ -204,11 +179,11 @@ void html_overview(struct page *p) {
     put_banner(p);
     put_sentence(p);
     put_counts(p);
+    fprintf(p->out, "<dl class=\"answers\">\n");
     put_worst(p);
-    put_allowance(p);
-    put_skipped(p);
-    put_facts(p);
-    fprintf(p->out, "</header>\n<main id=\"cases\">\n");
-    if (p->report->case_count > 0)
-        put_matrix(p);
+    put_changes(p);
+    put_not_covered(p);
+    fprintf(p->out, "<dt>Made by</dt>\n<dd>");
+    put_facts(p, true);
+    fprintf(p->out, "</dd>\n</dl>\n</header>\n");
 }

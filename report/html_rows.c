@@ -85,8 +85,9 @@ static void put_trouble(struct page *p, const struct report_row *row) {
     put_point(p, row);
     html_text(p, ": ", row->reason, "</p>\n");
     if (row->repeat && *row->repeat) {
-        fprintf(p->out, "<p>To repeat it:</p>\n");
+        fprintf(p->out, "<div class=\"again\"><p>To repeat it:</p>\n");
         html_pre(p, row->repeat);
+        fprintf(p->out, "</div>\n");
     }
     if (row->log_end && *row->log_end) {
         fprintf(p->out, "<p>The log ends:</p>\n");

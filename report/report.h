@@ -120,6 +120,7 @@ struct report_table {
 
 struct report_case {
     const char *name, *title, *source, *question, *command;
+    const char *equation; /* that is tested, or NULL */
     bool skipped;
     const char *skip_reason;
     size_t row_count, figure_count, picture_count, table_count, sequence_count, animation_count;
@@ -145,6 +146,26 @@ struct report_bits { /* runs with and without the bits of their reference */
     size_t same, other, unknown;
 };
 
+/* What the suite cannot see, whatever its verdicts. */
+struct report_limit {
+    const char *model, *what, *because;
+};
+
+/* Rows of a group taken together: ln(measured/expected) has a mean, shown as the ratio `bias`, and
+ * a standard deviation `scatter`; low and high are their 95 % interval, NaN for fewer than three
+ * cases.  `noise` is the part of the scatter that the rows' own uncertainties explain. */
+struct report_group {
+    const char *name;
+    size_t rows, cases;
+    double bias, bias_low, bias_high, scatter, scatter_low, scatter_high, noise;
+};
+
+struct report_agreement {
+    size_t group_count, round_off, one_sided, other; /* the last three: rows without a ratio */
+    const struct report_group *group;
+    struct report_figure figure;
+};
+
 struct report {
     const char *suite; /* "bedcheck 0.1.0" */
     const char *tier, *solver, *solver_key, *started;
@@ -155,6 +176,10 @@ struct report {
     size_t case_count, fact_count;
     const struct report_case *cases;
     const struct report_fact *fact;     /* provenance: commit, machine, versions, times */
+    size_t limit_count, unselected_count;
+    const struct report_limit *limit;         /* of the models in this report */
+    const char *const *unselected;            /* cases of this tier that nobody asked for */
+    const struct report_agreement *agreement; /* or NULL */
     const struct report_ledger *ledger; /* the papers' claims (ledger.h), or NULL */
 };
 

@@ -249,3 +249,29 @@ void words_bits(FILE *out, const struct report *r) {
     if (b->unknown > 0)
         fprintf(out, " For %zu more there are none of this class of build.", b->unknown);
 }
+
+void words_changes(FILE *out, const struct report *r) {
+    size_t count[VERDICT_KNOWN + 1] = {0}, all = 0;
+    for (size_t i = 0; i < r->case_count; i++) {
+        for (size_t k = 0; k < r->cases[i].row_count; k++) {
+            const struct report_row *row = &r->cases[i].row[k];
+            bool is_one = row->kind && strcmp(row->kind, "regression") == 0;
+            count[row->verdict] += is_one;
+            all += is_one;
+        }
+    }
+    if (all == 0) {
+        fprintf(out, "No check here compares with a stored reference.");
+        return;
+    }
+    fprintf(out, "Of %zu comparison%s with stored references %zu find%s no change", all,
+            plural(all), count[VERDICT_PASS], count[VERDICT_PASS] == 1 ? "s" : "");
+    if (count[VERDICT_FAIL] > 0)
+        fprintf(out, ", %zu find%s one", count[VERDICT_FAIL], count[VERDICT_FAIL] == 1 ? "s" : "");
+    if (count[VERDICT_KNOWN] > 0)
+        fprintf(out, ", %zu find%s one that is known", count[VERDICT_KNOWN],
+                count[VERDICT_KNOWN] == 1 ? "s" : "");
+    if (count[VERDICT_INCONCLUSIVE] > 0)
+        fprintf(out, ", %zu cannot tell", count[VERDICT_INCONCLUSIVE]);
+    fprintf(out, ".");
+}

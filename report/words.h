@@ -39,6 +39,9 @@ struct words words_unit(const char *unit);
 /* One sentence with the verdict and its counts. */
 void words_sentence(FILE *out, const struct report *r);
 
+/* What the comparisons with stored references say. */
+void words_changes(FILE *out, const struct report *r);
+
 /* Two sentences each: the false alarms that unchanged code may raise, and whose bits are those of
  * their references.  Nothing where nothing is known. */
 void words_budget(FILE *out, const struct report *r);

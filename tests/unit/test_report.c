@@ -94,6 +94,24 @@ START_TEST(the_budget_and_the_bits_are_told) {
 }
 END_TEST
 
+START_TEST(changes_are_what_comparisons_with_references_find) {
+    struct sample s;
+    sample_fill(&s);
+    ck_assert_str_eq(text_of(words_changes, &s.report),
+                     "No check here compares with a stored reference.");
+    for (int i = 0; i < 3; i++)
+        s.first[i].kind = "regression";
+    ck_assert_str_eq(text_of(words_changes, &s.report),
+                     "Of 3 comparisons with stored references 1 finds no change, 1 finds one, 1 "
+                     "cannot tell.");
+    sample_know(&s);
+    s.first[2].verdict = VERDICT_PASS;
+    ck_assert_str_eq(text_of(words_changes, &s.report),
+                     "Of 3 comparisons with stored references 2 find no change, 1 finds one that "
+                     "is known.");
+}
+END_TEST
+
 START_TEST(nothing_judged_is_no_pass) {
     struct sample s;
     sample_fill(&s);
@@ -209,6 +227,7 @@ int main(void) {
     const TTest *const tests[] = {rows_are_counted_and_a_failure_decides,
                                   a_known_disagreement_is_counted_and_decides_nothing,
                                   the_budget_and_the_bits_are_told,
+                                  changes_are_what_comparisons_with_references_find,
                                   nothing_judged_is_no_pass,
                                   margin_is_the_share_of_what_is_allowed,
                                   a_share_near_one_has_used_little,
