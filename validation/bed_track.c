@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double PRESSURE_CELL_R = 0.5;
+static const double PRESSURE_CELL_R = 0.5, GAP_LEAST_R = 20;
 
 enum status bed_track_create(size_t count, struct bed_track *out, struct fault *fault) {
     *out = (struct bed_track){.count = count, .time_s = calloc(5 * count + 1, sizeof(double))};
@@ -200,4 +200,34 @@ double bed_track_meeting(const struct bed_track *t) {
     }
     free(x);
     return meeting;
+}
+
+/* -- against theory --------------------------------------------------------------------- */
+
+static double largest_distance(const double *seen, const double *theory, const bool *use,
+                               size_t count) {
+    double largest = NAN;
+    for (size_t k = 0; k < count; k++)
+        if (use[k] && !isnan(seen[k]) && !isnan(theory[k]))
+            largest = fmax(largest, fabs(seen[k] - theory[k]));
+    return largest;
+}
+
+enum status bed_track_distances(const struct bed_track *seen, size_t skip,
+                                const struct bed_track *theory, double share, double distance_R[3],
+                                struct fault *fault) {
+    size_t count = theory->count;
+    bool *moving = calloc(2 * count + 1, sizeof *moving), *apart = moving + count;
+    if (!moving)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu samples", count);
+    double end = bed_track_time(theory, theory->centre_R[0], theory->centre_R[count - 1], share);
+    for (size_t k = 1; k < count; k++) {
+        moving[k] = isnan(end) || theory->time_s[k] <= end;
+        apart[k] = moving[k] && theory->top_R[k] - theory->front_R[k] > GAP_LEAST_R;
+    }
+    distance_R[0] = largest_distance(seen->centre_R + skip, theory->centre_R, moving, count);
+    distance_R[1] = largest_distance(seen->top_R + skip, theory->top_R, moving, count);
+    distance_R[2] = largest_distance(seen->front_R + skip, theory->front_R, apart, count);
+    free(moving);
+    return STATUS_OK;
 }

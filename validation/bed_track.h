@@ -55,5 +55,11 @@ double bed_track_time(const struct bed_track *t, double start_R, double end_R, d
 /* When front and top meet: where a straight line through the gap between them, from .8 to .2 of the
  * first top's height, has none; NaN with fewer than three samples. */
 double bed_track_meeting(const struct bed_track *t);
+/* Largest distances from theory (R) of centre, top and front, in distance_R: theory's entry k is
+ * seen's skip + k.  Up to where theory's centre has gone `share` of its way, and for the front
+ * while theory's is well below its top; NaN where bed and theory never have both. */
+enum status bed_track_distances(const struct bed_track *seen, size_t skip,
+                                const struct bed_track *theory, double share, double distance_R[3],
+                                struct fault *fault);
 
 #endif

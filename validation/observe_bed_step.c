@@ -55,7 +55,7 @@ enum {
     PRESSURE_RISE
 };
 
-static const double END_SHARE = 0.98, EARLY_SHARE = 0.3, GAP_LEAST_R = 20;
+static const double END_SHARE = 0.98, EARLY_SHARE = 0.3;
 
 struct step {
     struct run_view *v;
@@ -178,40 +178,18 @@ static void find_times(const struct step *s, struct measurement *out) {
 
 /* -- against theory --------------------------------------------------------------------- */
 
-static double largest_distance(const double *seen, const double *theory, const bool *use,
-                               size_t count) {
-    double largest = NAN;
-    for (size_t k = 0; k < count; k++)
-        if (use[k] && !isnan(seen[k]) && !isnan(theory[k]))
-            largest = fmax(largest, fabs(seen[k] - theory[k]));
-    return largest;
-}
-
 static enum status compare(const struct step *s, const struct bed_track *theory, size_t centre,
                            struct measurement *out, struct fault *fault) {
-    size_t skip = s->still - 1, count = theory->count;
-    for (size_t i = centre; count == 0 && i <= centre + 2; i++)
+    for (size_t i = centre; theory->count == 0 && i <= centre + 2; i++)
         observe_none(out, i, "the wave has no solution: the bed is unstable");
-    if (count == 0)
+    if (theory->count == 0)
         return STATUS_OK;
-    bool *moving = calloc(2 * count, sizeof *moving), *apart = moving + count;
-    if (!moving)
-        return fault_set(fault, STATUS_NO_MEMORY, "no memory for %zu samples", count);
-    double end =
-        bed_track_time(theory, theory->centre_R[0], theory->centre_R[count - 1], END_SHARE);
-    for (size_t k = 1; k < count; k++) {
-        moving[k] = isnan(end) || theory->time_s[k] <= end;
-        apart[k] = moving[k] && theory->top_R[k] - theory->front_R[k] > GAP_LEAST_R;
-    }
-    out->value[centre] = largest_distance(s->seen.centre_R + skip, theory->centre_R, moving, count);
-    out->value[centre + 1] = largest_distance(s->seen.top_R + skip, theory->top_R, moving, count);
-    out->value[centre + 2] =
-        largest_distance(s->seen.front_R + skip, theory->front_R, apart, count);
-    for (size_t i = centre; i <= centre + 2; i++)
+    enum status status =
+        bed_track_distances(&s->seen, s->still - 1, theory, END_SHARE, out->value + centre, fault);
+    for (size_t i = centre; !status && i <= centre + 2; i++)
         if (isnan(out->value[i]))
             observe_none(out, i, "theory and bed have no top or front at the same time");
-    free(moving);
-    return STATUS_OK;
+    return status;
 }
 
 static void find_ratio(const struct step *s, struct measurement *out) {

@@ -50,6 +50,7 @@ static const struct recipe *const RECIPES[] = {
     &recipe_bed_velocities,
     &recipe_bed_diffusion,
     &recipe_bed_step,
+    &recipe_bed_wave,
     &recipe_bed_relaxation,
 };
 

@@ -49,6 +49,7 @@ extern const struct recipe recipe_bed_temperature;     /* observe_rest.c */
 extern const struct recipe recipe_bed_velocities;      /* observe_rest.c */
 extern const struct recipe recipe_bed_diffusion;       /* observe_rest.c */
 extern const struct recipe recipe_bed_step;            /* observe_bed_step.c */
+extern const struct recipe recipe_bed_wave;            /* observe_bed_wave.c */
 extern const struct recipe recipe_bed_relaxation;      /* observe_bed_relaxation.c */
 
 #endif
