@@ -1,4 +1,5 @@
 /* html.c -- index.html as a whole; see html.h. */
+#include "report/html_gallery.h"
 
 #include "report/escape.h"
 #include "report/sheet.h"
@@ -84,6 +85,7 @@ static enum status put_page(struct page *p, struct fault *fault) {
     if ((status = html_cover(p, fault)) || (status = html_agreement(p, fault)))
         return status;
     html_ledger(p);
+    status = html_gallery(p, fault);
     for (size_t i = 0; i < p->report->case_count && !status; i++)
         status = html_case(p, &p->report->cases[i], fault);
     html_origin(p);

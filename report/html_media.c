@@ -1,7 +1,7 @@
 /* html_media.c -- sequences, animations, pictures, figures and tables of a case. */
 #include "report/draw.h"
 #include "report/escape.h"
-#include "report/html.h"
+#include "report/html_gallery.h"
 
 #include "common/file.h"
 
@@ -37,9 +37,17 @@ static enum status save_full_size(struct page *p, const struct report_picture *p
     return status;
 }
 
-static void put_picture(struct page *p, const struct report_picture *picture,
-                        const struct drawing *drawing, const char *name) {
-    fprintf(p->out, "<figure class=\"picture\">\n");
+static void put_figure(struct page *p, const char *class, const struct report_case *c,
+                       enum gallery_kind kind, size_t index) {
+    fprintf(p->out, "<figure class=\"%s\" id=\"", class);
+    html_gallery_id(p, c, kind, index);
+    fprintf(p->out, "\">\n");
+}
+
+static void put_picture(struct page *p, const struct report_case *c,
+                        const struct report_picture *picture, const struct drawing *drawing,
+                        const char *name) {
+    put_figure(p, "picture", c, GALLERY_PICTURE, (size_t)(picture - c->picture));
     html_text(p, "<h3>", picture->title, "</h3>\n");
     fprintf(p->out, "<a href=\"%s\"><img width=\"%d\" height=\"%d\" ", name, drawing->width_px / 2,
             drawing->height_px / 2);
@@ -60,7 +68,7 @@ static enum status picture(struct page *p, const struct report_case *c,
         goto done;
     if ((status = draw_picture(picture, DRAW_INLINE_PX_PER_L, &small, fault)))
         goto done;
-    put_picture(p, picture, &small, name.text);
+    put_picture(p, c, picture, &small, name.text);
 done:
     free(small.bytes);
     sheet_free(&name);
@@ -92,7 +100,8 @@ static enum status sequence(struct page *p, const struct report_case *c,
         goto done;
     if ((status = save(p, name.text, &svg, fault)))
         goto done;
-    html_text(p, "<figure class=\"sequence\">\n<h3>", s->title, "</h3>\n");
+    put_figure(p, "sequence", c, GALLERY_SEQUENCE, (size_t)(s - c->sequence));
+    html_text(p, "<h3>", s->title, "</h3>\n");
     html_text(p, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Figure: ",
               s->title, "\">\n");
     fprintf(p->out, "<a href=\"%s\">", name.text);
@@ -119,7 +128,8 @@ static enum status animation(struct page *p, const struct report_case *c,
         goto done;
     if ((status = draw_poster(s, &poster, fault)))
         goto done;
-    html_text(p, "<figure class=\"picture\">\n<h3>", s->title, "</h3>\n");
+    put_figure(p, "picture", c, GALLERY_ANIMATION, (size_t)(s - c->animation));
+    html_text(p, "<h3>", s->title, "</h3>\n");
     fprintf(p->out, "<a href=\"%s\">", name.text);
     put_image(p, s->alt, &poster);
     html_text(p, "</a>\n<figcaption>", s->caption, "");
@@ -132,14 +142,19 @@ done:
     return status;
 }
 
-enum status html_figure(struct page *p, const struct report_figure *f, struct fault *fault) {
+/* Of a case, with its id, or of none (c NULL). */
+static enum status plot(struct page *p, const struct report_case *c, const struct report_figure *f,
+                        struct fault *fault) {
     char prefix[32];
     struct sheet svg = {0};
     snprintf(prefix, sizeof prefix, "figure%zu-", ++p->figures);
     enum status status = draw_figure(f, prefix, &svg, fault);
     if (status)
         return status;
-    fprintf(p->out, "<figure class=\"plot\">\n");
+    if (c != NULL)
+        put_figure(p, "plot", c, GALLERY_PLOT, (size_t)(f - c->figure));
+    else
+        fprintf(p->out, "<figure class=\"plot\">\n");
     html_text(p, "<h3>", f->title, "</h3>\n");
     html_text(p, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Figure: ",
               f->title, "\">\n");
@@ -150,6 +165,10 @@ enum status html_figure(struct page *p, const struct report_figure *f, struct fa
     fprintf(p->out, "</figure>\n");
     sheet_free(&svg);
     return STATUS_OK;
+}
+
+enum status html_figure(struct page *p, const struct report_figure *f, struct fault *fault) {
+    return plot(p, NULL, f, fault);
 }
 
 static void table(struct page *p, const struct report_table *t) {
@@ -185,7 +204,7 @@ enum status html_media(struct page *p, const struct report_case *c, struct fault
     if (has_pictures)
         fprintf(p->out, "</div>\n");
     for (size_t i = 0; i < c->figure_count && !status; i++)
-        status = html_figure(p, &c->figure[i], fault);
+        status = plot(p, c, &c->figure[i], fault);
     for (size_t i = 0; i < c->table_count && !status; i++)
         table(p, &c->table[i]);
     return status ? fault_within(fault, "case %s", c->name) : STATUS_OK;

@@ -175,12 +175,13 @@ struct report {
     struct report_bits bits;
     size_t case_count, fact_count;
     const struct report_case *cases;
-    const struct report_fact *fact;     /* provenance: commit, machine, versions, times */
+    const struct report_fact *fact; /* provenance: commit, machine, versions, times */
     size_t limit_count, unselected_count;
     const struct report_limit *limit;         /* of the models in this report */
     const char *const *unselected;            /* cases of this tier that nobody asked for */
     const struct report_agreement *agreement; /* or NULL */
-    const struct report_ledger *ledger; /* the papers' claims (ledger.h), or NULL */
+    const struct report_ledger *ledger;       /* the papers' claims (ledger.h), or NULL */
+    const struct report_gallery *gallery;     /* and their figures (gallery.h), or NULL */
 };
 
 struct report_count {

@@ -18,7 +18,8 @@ struct builder {
     struct assembled *out;
     struct arena *arena;
     struct report_fact *fact;
-    struct report_case *cases; /* = out->report.cases */
+    struct report_case *cases;               /* = out->report.cases */
+    const struct report_gallery_item **item; /* item[case][figure]: what it has become */
     struct fault *fault;
 };
 
@@ -44,8 +45,16 @@ static enum status say_missing(struct builder *b, const struct case_figure *f,
     return figure_add_table(out, &t, b->fault);
 }
 
+static void mark(const struct figure_output *out, size_t *at) {
+    at[GALLERY_PLOT] = out->figure_count;
+    at[GALLERY_PICTURE] = out->picture_count;
+    at[GALLERY_SEQUENCE] = out->sequence_count;
+    at[GALLERY_ANIMATION] = out->animation_count;
+}
+
+/* item[i]: what figure i of the case becomes. */
 static enum status build_figures(struct builder *b, const struct assemble_case *c,
-                                 struct figure_output *out) {
+                                 struct report_gallery_item *item, struct figure_output *out) {
     const struct case_file *file = c->plan->file;
     struct figure_input in = {.data = c->measured,
                               .file = file,
@@ -64,9 +73,11 @@ static enum status build_figures(struct builder *b, const struct assemble_case *
         in.observable = f->observable;
         in.observable_count = f->observable_count;
         in.data = &shown;
+        mark(out, item[i].begin);
         status = figure_select(c->measured, f, b->arena, &shown, &why);
         if (status == STATUS_OK)
             status = figure_find(f->recipe)->build(&in, out, &why);
+        mark(out, item[i].end);
         if (status == STATUS_NO_MEMORY)
             *b->fault = why;
         else if (status != STATUS_OK)
@@ -97,10 +108,12 @@ static enum status build_case(struct builder *b, const struct assemble_case *c,
     if (c->rows == NULL)
         return STATUS_OK;
     struct figure_output *f = arena_take(b->arena, 1, sizeof *f);
-    if (f == NULL)
+    struct report_gallery_item *item = arena_take(b->arena, file->figure_count, sizeof *item);
+    if (f == NULL || item == NULL)
         return no_memory(b);
     f->arena = b->arena;
-    enum status status = build_figures(b, c, f);
+    b->item[c - b->in->cases] = item;
+    enum status status = build_figures(b, c, item, f);
     out->row = c->rows->row;
     out->row_count = c->rows->count;
     out->figure = f->figure;
@@ -119,7 +132,8 @@ static enum status build_case(struct builder *b, const struct assemble_case *c,
 static enum status build_cases(struct builder *b) {
     struct report *r = &b->out->report;
     struct report_case *cases = arena_take(b->arena, b->in->case_count, sizeof *cases);
-    enum status status = cases == NULL ? no_memory(b) : STATUS_OK;
+    b->item = arena_take(b->arena, b->in->case_count, sizeof *b->item);
+    enum status status = cases == NULL || b->item == NULL ? no_memory(b) : STATUS_OK;
     r->cases = b->cases = cases;
     for (; status == STATUS_OK && r->case_count < b->in->case_count; r->case_count++)
         status = build_case(b, &b->in->cases[r->case_count], &cases[r->case_count]);
@@ -141,6 +155,22 @@ static enum status build_ledger(struct builder *b) {
         return no_memory(b);
     b->out->report.ledger = ledger;
     return claims_judge(&c, b->arena, ledger, b->fault);
+}
+
+static enum status build_gallery(struct builder *b) {
+    const struct assemble_input *in = b->in;
+    if (in->papers == NULL || in->papers->gallery->count == 0)
+        return STATUS_OK;
+    const struct gallery_input g = {.tier = in->plan->tier,
+                                    .cases = in->cases,
+                                    .report = b->cases,
+                                    .item = b->item,
+                                    .case_count = in->case_count};
+    struct report_gallery *gallery = arena_take(b->arena, 1, sizeof *gallery);
+    if (gallery == NULL)
+        return no_memory(b);
+    b->out->report.gallery = gallery;
+    return gallery_hang(in->papers->gallery, &g, b->arena, gallery, b->fault);
 }
 
 /* -- facts ---------------------------------------------------------------------- */
@@ -227,7 +257,7 @@ enum status assemble_report(const struct assemble_input *in, struct assembled **
     struct assembled *a = calloc(1, sizeof *a);
     if (a == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
-    struct builder b = {in, a, &a->arena, NULL, NULL, fault};
+    struct builder b = {.in = in, .out = a, .arena = &a->arena, .fault = fault};
     struct report *r = &a->report;
     r->suite = arena_text(&a->arena, "bedcheck %s", build_version());
     r->tier = in->record->tier;
@@ -253,6 +283,8 @@ enum status assemble_report(const struct assemble_input *in, struct assembled **
                              : build_cases(&b);
     if (status == STATUS_OK)
         status = build_ledger(&b);
+    if (status == STATUS_OK)
+        status = build_gallery(&b);
     if (status == STATUS_OK)
         build_facts(&b);
     else {

@@ -7,10 +7,12 @@
 #define VALIDATION_PAPERS_H
 
 #include "validation/claims_stored.h"
+#include "validation/gallery.h"
 
 struct papers {
     struct claims *claims;
     struct claims_stored *stored;
+    struct gallery *gallery;
 };
 
 /* references_folder may be NULL.  On error *out is empty and fault has every finding. */
