@@ -79,7 +79,7 @@ static const char style[] =
     "\n"
     ".notrun ul{margin:.2rem 0;padding-left:1.4rem}\n"
     ".notrun p{margin-bottom:0}\n"
-    ".facts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(30rem,100%),1fr));gap:."
+    ".facts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(21rem,100%),1fr));gap:."
     "15rem "
     "1.5rem;"
     "margin:0;padding:0;list-style:none;font-size:.875rem}\n"

@@ -93,15 +93,21 @@ double report_margin_used(const struct report_row *row) {
     return share(fabs(m - e), t);
 }
 
+/* "At least 1000 collisions" asks for enough, and has no best value to measure the way from. */
+static bool is_open(const struct report_row *row) {
+    return row->comparison && strcmp(row->comparison, "at least") == 0 && row->tolerance == 0 &&
+           !is_share(row);
+}
+
 /* Failed rows come before all others; a failed row without a number is the worst. What is known
- * to disagree tells nothing about the margins of the rest. */
+ * to disagree tells nothing about the margins of the rest; what is enough stands last. */
 static double badness(const struct report_row *row) {
     double used = report_margin_used(row);
     if (row->verdict == VERDICT_KNOWN)
         return -2;
     if (isnan(used))
-        return row->verdict == VERDICT_FAIL ? (double)INFINITY : -1;
-    return used;
+        return row->verdict == VERDICT_FAIL ? (double)INFINITY : -1.5;
+    return row->verdict == VERDICT_PASS && is_open(row) ? used - 1 : used;
 }
 
 static bool is_worse(const struct report_row *a, const struct report_row *b) {

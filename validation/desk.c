@@ -1,6 +1,8 @@
 #include "validation/desk.h"
 
 #include "common/file.h"
+#include "validation/agreement.h"
+#include "validation/limits.h"
 #include "validation/papers.h"
 
 #include <math.h>
@@ -248,6 +250,34 @@ static void tell_claims(const struct desk *d, const struct report *r) {
     fputc('\n', out);
 }
 
+/* Cases of the budget's plan, which has all of the tier, that nobody asked for. */
+static enum status name_unselected(const struct desk *d, struct report *r, struct arena *a,
+                                   struct fault *fault) {
+    const struct plan *all = d->budget == NULL ? NULL : d->budget->plan;
+    const char **name = arena_take(a, all == NULL ? 0 : all->case_count, sizeof *name);
+    if (name == NULL)
+        return fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
+    for (size_t i = 0; all != NULL && i < all->case_count; i++) {
+        bool is_here = false;
+        for (size_t k = 0; k < d->plan->case_count; k++)
+            is_here |= strcmp(d->plan->cases[k].file->name, all->cases[i].file->name) == 0;
+        if (!is_here &&
+            (name[r->unselected_count++] = arena_copy(a, all->cases[i].file->name)) == NULL)
+            return fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
+    }
+    r->unselected = name;
+    return STATUS_OK;
+}
+
+/* What the rows say together, and what they cannot say. */
+static enum status survey(const struct desk *d, const struct folder_record *record,
+                          struct assembled *a, struct fault *fault) {
+    enum status status = limits_add(record->cases_folder, &a->report, &a->arena, fault);
+    if (status == STATUS_OK)
+        status = name_unselected(d, &a->report, &a->arena, fault);
+    return status == STATUS_OK ? agreement_add(&a->report, &a->arena, fault) : status;
+}
+
 enum status desk_file(struct desk *d, const struct folder_record *record, bool page, int *exit_code,
                       struct fault *fault) {
     struct assemble_case *cases = calloc(d->plan->case_count + 1, sizeof *cases);
@@ -268,6 +298,8 @@ enum status desk_file(struct desk *d, const struct folder_record *record, bool p
         papers_open(record->cases_folder, record->references_folder, &papers, fault);
     if (status == STATUS_OK)
         status = assemble_report(&in, &a, fault);
+    if (status == STATUS_OK)
+        status = survey(d, record, a, fault);
     if (status == STATUS_OK)
         status = write_all(d, &a->report, page, &a->arena, fault);
     if (status == STATUS_OK) {

@@ -171,6 +171,10 @@ START_TEST(the_worst_row_is_a_failed_one_without_a_number) {
     s.first[1].verdict = VERDICT_PASS;
     s.first[1].measured = 1.21;
     ck_assert_ptr_eq(report_worst(&s.report), &s.first[2]);
+    s.first[0] = row_of("at least", 1048, 1000, 0); /* enough, though "95 %" of it are used */
+    ck_assert_ptr_eq(report_worst(&s.report), &s.first[2]);
+    s.first[0].verdict = VERDICT_FAIL;
+    ck_assert_ptr_eq(report_worst(&s.report), &s.first[0]);
 }
 END_TEST
 
