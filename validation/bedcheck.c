@@ -373,6 +373,20 @@ static char *find_beside(const char *relative) {
     return real == NULL ? NULL : shorten(real);
 }
 
+/* Data of ours: in the repository that this program was built in, or where it was installed. */
+static char *find_data(const char *name) {
+    static const char *const place[] = {"../..", "../share/bedcheck"};
+    char *found = NULL;
+    for (size_t i = 0; found == NULL && i < sizeof place / sizeof *place; i++) {
+        char *path = NULL;
+        if (asprintf(&path, "%s/%s", place[i], name) < 0)
+            return NULL;
+        found = find_beside(path);
+        free(path);
+    }
+    return found;
+}
+
 /* A program needs a '/' in its path, lest it be looked for in PATH. */
 static char *find_solver(void) {
     char *path = find_beside("bedsim"), *dotted = NULL;
@@ -392,8 +406,8 @@ static const char *const standard_out[] = {"bedcheck-out/smoke", "bedcheck-out/p
 static int perform(const struct command *command, struct line *l) {
     struct console console = {
         .out = stdout, .errors = stderr, .live = isatty(2) == 1 && getenv("CI") == NULL};
-    char *cases = find_beside("../../validation/cases"), *solver = find_solver();
-    char *references = find_beside("../../reference");
+    char *cases = find_data("validation/cases"), *solver = find_solver();
+    char *references = find_data("reference");
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     struct command_options *o = &l->o;
     int code = 2;
