@@ -8,17 +8,19 @@
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
 
-static double amount_of(const struct case_amount *a, double expected) {
-    return a->percent ? a->value / 100 * fabs(expected) : a->value;
-}
-
 /* Mean expectation of the first `count` seeds; of a difference 0. */
 static double expected_of(const struct scatter *s, size_t count) {
     return gsl_stats_mean(s->expected, 1, count);
 }
 
-static double tolerance_of(const struct scatter *s, double expected) {
-    return s->check->kind == KIND_REGRESSION ? NAN : amount_of(&s->check->margin, expected);
+/* A margin or a scatter in the row's unit: percentages are of the expectation, of which a
+ * difference holds nothing any more. */
+static struct case_amount absolute(const struct scatter *s, const struct case_amount *a) {
+    return (struct case_amount){.given = a->given, .value = judge_amount(a, s->scale)};
+}
+
+static double tolerance_of(const struct scatter *s) {
+    return s->check->kind == KIND_REGRESSION ? NAN : judge_amount(&s->check->margin, s->scale);
 }
 
 /* Of measured - expected: the expectation of a row is the same in every run, or subtracted. */
@@ -27,11 +29,11 @@ static struct alarm_question ask_alarm(const struct scatter *s, size_t count, do
     double expected = expected_of(s, count);
     return (struct alarm_question){
         .comparison = s->check->comparison,
-        .tolerance = tolerance_of(s, expected),
+        .tolerance = tolerance_of(s),
         .ensemble = {.seeds = count, .mean = mean - expected, .deviation = deviation},
         .seeds = n,
         .fitted = s->check->number.across,
-        .declared = s->check->scatter.given ? amount_of(&s->check->scatter, expected) : NAN,
+        .declared = s->check->scatter.given ? judge_amount(&s->check->scatter, s->scale) : NAN,
         .expected_uncertainty = s->expected_uncertainty,
         .share = share,
         .known = s->check->known_since != NULL};
@@ -98,8 +100,8 @@ static enum verdict judge_present(const struct scatter *s, const struct judge_en
     double value = gsl_stats_mean(s->value + first, 1, n), expected = s->expected[first];
     struct judge_question q = {.comparison = s->check->comparison,
                                .kind = s->check->kind,
-                               .margin = s->check->margin,
-                               .scatter = s->check->scatter,
+                               .margin = absolute(s, &s->check->margin),
+                               .scatter = absolute(s, &s->check->scatter),
                                .count = n,
                                .measured = s->value + first,
                                .expected = s->expected + first,

@@ -35,6 +35,7 @@ static void take_point(const struct measured_point *p, size_t check, bool differ
         if (sample != NULL) {
             value[i] = differs ? sample->measured - sample->expected : sample->measured;
             expected[i] = differs ? 0 : sample->expected;
+            s->scale += sample->expected / (double)p->run_count;
             s->expected_uncertainty = sample->expected_uncertainty;
         }
         if (!isfinite(value[i]))
@@ -96,6 +97,7 @@ static enum status take_fit(const struct measured_case *m, struct arena *a, stru
     if (status == STATUS_OK && !isfinite(whole.value))
         note(s, whole.reason);
     s->expected_uncertainty = status == STATUS_OK ? whole.expected_uncertainty : NAN;
+    s->scale = status == STATUS_OK ? whole.expected : NAN;
     for (size_t i = 0; status == STATUS_OK && i < s->count; i++) {
         value[i] = NAN;
         expected[i] = whole.expected;

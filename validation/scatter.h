@@ -33,6 +33,7 @@ struct scatter {
     const double *value;    /* value[0 .. count-1]; NaN: missing */
     const double *expected; /* expected[0 .. count-1], 0 of differences; NaN: none or missing */
     double expected_uncertainty;
+    double scale; /* of what margins in percent are a part: the expectation, a mean over seeds */
     double mean, deviation; /* NaN with a reason in `missing` */
     const char *missing;    /* why there is no ensemble, or NULL */
 };
