@@ -2,6 +2,7 @@
  *
  *     bedsim run RUN.yaml --seed N --out FILE.h5 [--set name=value]... [--quiet]
  *     bedsim models | params MODEL | datasets MODEL
+ *     bedsim xdmf FILE.h5
  *
  * Exit codes: 0 done, 1 numerical fault, 2 input refused, 130 interrupted.  The
  * result appears whole or not at all (docs/contract.md).
@@ -10,6 +11,7 @@
 #include "common/file.h"
 #include "common/schema.h"
 #include "solver/result.h"
+#include "solver/xdmf.h"
 
 #include <argp.h>
 #include <errno.h>
@@ -314,6 +316,20 @@ static int list_datasets(const char *name) {
     return 0;
 }
 
+static int write_sidecar(const char *result_path) {
+    struct fault fault = FAULT_NONE;
+    struct h5_reader *result = NULL;
+    char *path = NULL;
+    enum status status = h5_open(result_path, &result, &fault);
+    if (!status)
+        status = xdmf_write(result, &path, &fault);
+    if (!status)
+        printf("%s\n", path);
+    h5_close(result);
+    free(path);
+    return status ? finish(&fault) : 0;
+}
+
 /* -- command line ------------------------------------------------------------------ */
 
 static const struct argp_option run_options[] = {
@@ -378,6 +394,7 @@ static int usage(FILE *to, int code) {
             "       bedsim models\n"
             "       bedsim params MODEL\n"
             "       bedsim datasets MODEL\n"
+            "       bedsim xdmf FILE.h5\n"
             "       bedsim --version | --help\n");
     return code;
 }
@@ -392,6 +409,8 @@ int main(int argc, char **argv) {
         return list_parameters(argv[2]);
     if (argc == 3 && !strcmp(argv[1], "datasets"))
         return list_datasets(argv[2]);
+    if (argc == 3 && !strcmp(argv[1], "xdmf"))
+        return write_sidecar(argv[2]);
     if (argc == 2 && !strcmp(argv[1], "--help"))
         return usage(stdout, 0);
     if (argc == 2 && !strcmp(argv[1], "--version")) {

@@ -48,6 +48,7 @@ _bedcheck() {
                             return
                         fi ;;
                     params | datasets) words=$("$program" models 2>/dev/null | grep -o '^[a-z]*') ;;
+                    xdmf) mapfile -t COMPREPLY < <(compgen -f -- "$word"); return ;;
                     check | report | accept | clean | compare | history)
                         mapfile -t COMPREPLY < <(compgen -d -- "$word")
                         return ;;

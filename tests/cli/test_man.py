@@ -13,7 +13,7 @@ MAN = ROOT / "docs" / "man"
 COMPLETION = ROOT / "docs" / "completion"
 COMMANDS = ["list", "show", "recipes", "claims", "run", "check", "report", "calibrate", "accept",
             "clean", "compare", "history"]
-BEDSIM = ["run", "models", "params", "datasets"]
+BEDSIM = ["run", "models", "params", "datasets", "xdmf"]
 OPTION = re.compile(r"^ {2,6}(?:-\S, )?\s*(--[a-z-]+)(=\S+)?", re.M)
 
 
