@@ -3,6 +3,7 @@
 #include "common/build.h"
 #include "common/yaml.h"
 #include "validation/claims_judge.h"
+#include "validation/execute.h"
 #include "validation/figures.h"
 #include "validation/papers.h"
 
@@ -92,6 +93,30 @@ static enum status build_figures(struct builder *b, const struct assemble_case *
 
 /* -- cases ---------------------------------------------------------------------- */
 
+/* A path that works in any folder, as a word of a shell; what does not exist stays as it is. */
+static const char *path_word(struct builder *b, const char *path) {
+    char *real = realpath(path, NULL);
+    const char *copy = arena_copy(b->arena, real != NULL ? real : path);
+    free(real);
+    return copy == NULL ? NULL : execute_shell_word(b->arena, copy);
+}
+
+/* One line that runs a case again as this report's was, from any folder. */
+static const char *command_of(struct builder *b, const char *name) {
+    const struct folder_record *r = b->in->record;
+    const char *program = b->in->program == NULL ? "bedcheck" : path_word(b, b->in->program);
+    const char *cases = path_word(b, r->cases_folder), *solver = path_word(b, r->solver);
+    const char *line = program == NULL || cases == NULL || solver == NULL
+                           ? NULL
+                           : arena_text(b->arena, "%s run %s --tier %s --cases %s --solver %s",
+                                        program, name, r->tier, cases, solver);
+    for (size_t i = 0; i < r->setting_count && line != NULL; i++) {
+        const char *word = execute_shell_word(b->arena, r->setting[i]);
+        line = word == NULL ? NULL : arena_text(b->arena, "%s --set %s", line, word);
+    }
+    return line;
+}
+
 static enum status build_case(struct builder *b, const struct assemble_case *c,
                               struct report_case *out) {
     const struct case_file *file = c->plan->file;
@@ -99,8 +124,7 @@ static enum status build_case(struct builder *b, const struct assemble_case *c,
                                 .title = file->title,
                                 .source = file->source,
                                 .question = file->question};
-    out->command =
-        arena_text(b->arena, "bedcheck run %s --tier %s", file->name, b->in->record->tier);
+    out->command = command_of(b, file->name);
     out->skip_reason = c->plan->skip_reason != NULL ? c->plan->skip_reason : c->not_run;
     out->skipped = c->rows == NULL;
     if (out->command == NULL)

@@ -26,6 +26,7 @@ struct assemble_input {
     const struct outcome *outcome; /* outcome[0 .. plan->run_count-1] */
     const struct folder *folder;
     const struct budget *budget; /* or NULL */
+    const char *program;         /* path of bedcheck, for commands to copy; NULL: its name */
     const struct papers *papers; /* or NULL; outlive the result */
 };
 

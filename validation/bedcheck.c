@@ -358,13 +358,18 @@ static char *shorten(char *path) {
     return path;
 }
 
+/* Path of this program in program[0 .. PATH_MAX-1]. */
+static bool find_self(char *program) {
+    ssize_t length = readlink("/proc/self/exe", program, PATH_MAX - 1);
+    program[length > 0 ? length : 0] = '\0';
+    return length > 0;
+}
+
 /* FOLDER-OF-THIS-PROGRAM/relative, or NULL where there is no such thing. */
 static char *find_beside(const char *relative) {
     char program[PATH_MAX], *path = NULL;
-    ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-    if (length <= 0)
+    if (!find_self(program))
         return NULL;
-    program[length] = '\0';
     *strrchr(program, '/') = '\0';
     if (asprintf(&path, "%s/%s", program, relative) < 0)
         return NULL;
@@ -404,10 +409,13 @@ static const char *const standard_out[] = {"bedcheck-out/smoke", "bedcheck-out/p
                                            "bedcheck-out/large"};
 
 static int perform(const struct command *command, struct line *l) {
+    char self[PATH_MAX];
     struct console console = {
         .out = stdout, .errors = stderr, .live = isatty(2) == 1 && getenv("CI") == NULL};
     char *cases = find_data("validation/cases"), *solver = find_solver();
     char *references = find_data("reference");
+    if (find_self(self))
+        console.program = self;
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     struct command_options *o = &l->o;
     int code = 2;

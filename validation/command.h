@@ -13,7 +13,8 @@
 
 struct console {
     FILE *out, *errors;
-    bool live; /* a terminal: show progress */
+    bool live;           /* a terminal: show progress */
+    const char *program; /* path of this program, to be called again; NULL: not known */
 };
 
 enum command_format { FORMAT_TEXT, FORMAT_JSON, FORMAT_MARKDOWN };

@@ -291,9 +291,15 @@ enum status desk_file(struct desk *d, const struct folder_record *record, bool p
             .measured = d->measured[i],
             .rows = d->rows[i],
             .not_run = d->rows[i] == NULL ? "not run: stopped at the first failure (-x)" : NULL};
-    struct assemble_input in = {record,    cases,      d->plan->case_count,
-                                d->plan,   d->outcome, d->execute->folder,
-                                d->budget, &papers};
+    struct assemble_input in = {.record = record,
+                                .cases = cases,
+                                .case_count = d->plan->case_count,
+                                .plan = d->plan,
+                                .outcome = d->outcome,
+                                .folder = d->execute->folder,
+                                .budget = d->budget,
+                                .program = d->console->program,
+                                .papers = &papers};
     enum status status =
         papers_open(record->cases_folder, record->references_folder, &papers, fault);
     if (status == STATUS_OK)

@@ -130,7 +130,7 @@ char **execute_command(const struct plan_run *run, const struct execute_options 
     return command(run, o, folder_result(o->folder, a, run), a);
 }
 
-static const char *shell_word(struct arena *a, const char *word) {
+const char *execute_shell_word(struct arena *a, const char *word) {
     static const char safe[] =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.,:=+-/@%";
     if (*word != '\0' && strspn(word, safe) == strlen(word))
@@ -146,7 +146,7 @@ const char *execute_command_line(const struct plan_run *run, const struct execut
     char **word = command(run, o, result, a);
     const char *line = word == NULL ? NULL : "";
     for (size_t i = 0; line != NULL && word[i] != NULL; i++) {
-        const char *safe = shell_word(a, word[i]);
+        const char *safe = execute_shell_word(a, word[i]);
         line = safe == NULL ? NULL : arena_text(a, "%s%s%s", line, i == 0 ? "" : " ", safe);
     }
     return line;

@@ -45,6 +45,9 @@ enum status execute_inspect(const struct plan_run *run, const struct execute_opt
 enum status execute_plan(const struct plan *plan, const struct execute_options *o,
                          struct outcome *outcome, struct fault *fault);
 
+/* A word as a POSIX shell reads it back; NULL: no memory. */
+const char *execute_shell_word(struct arena *a, const char *word);
+
 /* The command line that a run is made with, one word each, NULL-terminated, and
  * as one line for a shell.  NULL: no memory. */
 char **execute_command(const struct plan_run *run, const struct execute_options *o,
