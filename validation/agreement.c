@@ -217,8 +217,7 @@ static enum status draw_lines(struct survey *s, int panel, const double *x,
 
 static enum status draw_panel(struct survey *s, int panel, const double *x,
                               struct report_panel *out) {
-    static const char *const label[] = {"|measured|", "measured / expected",
-                                        "(measured - expected) / tolerance"};
+    static const char *const label[] = {"|measured|", "ratio", "of tolerance"};
     size_t groups = s->out->group_count > 1 ? s->out->group_count - 1 : 1, lines = 0;
     struct report_series *series = arena_take(s->arena, groups + LINES, sizeof *series);
     if (series == NULL)
@@ -251,8 +250,8 @@ static enum status draw(struct survey *s) {
         .title = "Measured against expected, all checks",
         .caption = "Every check that compares a number with a number, each in its own unit. Above: "
                    "all should lie on the line. Middle: the ratio, with the bias and twice the "
-                   "scatter of all. Below: the same in units of each check's tolerance; between "
-                   "the dashed lines it passes.",
+                   "scatter of all. Below: the difference in units of each check's tolerance; "
+                   "between the dashed lines it passes.",
         .alt = "Measured over expected for all checks on logarithmic axes, their ratio, and their "
                "difference in units of the tolerance; the table above has bias and scatter.",
         .x_label = "|expected|",
