@@ -43,7 +43,8 @@ static inline void beds_write(struct fake_run *f, size_t seed, bool change) {
              "  particles: %d\n  radius_m: %.17g\n  mass_kg: 2.3e-6\n  thermal_energy_J: 1.7e-9\n"
              "  packing_fraction: 0.3\n  width_x_R: 8.3\n  width_y_R: 7.1\n  height_R: 26\n"
              "  boundary_x: hard\n  boundary_y: hard\n  boundary_z: hard\n  layer_R: 9.7\n"
-             "  temperature_scale: 1.3\n  drag_per_s: 4.9\n  restitution: 0.73\n  phibar: 0.31\n  exponent: 4.65\n"
+             "  temperature_scale: 1.3\n  drag_per_s: 4.9\n  restitution: 0.73\n  phibar: 0.31\n  "
+             "exponent: 4.65\n"
              "  gravity_m_per_s2: 9.7\n  density_contrast: 0.57\n  drive_scale: 0.031\n"
              "  drive: linear\n  start: random\n%s",
              (int)BEDS_SPHERES, BEDS_RADIUS_M,
