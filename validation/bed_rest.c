@@ -106,5 +106,9 @@ enum status bed_rest_fit(const double in[BED_INPUTS], const struct hydrostatic_p
     struct interface_window window = {.above_R = in[BED_ABOVE_R],
                                       .phibar = in[BED_PHIBAR],
                                       .plateau_free = in[BED_PLATEAU_FREE] > 0.5};
-    return interface_fit(profile->height_R, profile->fraction, profile->count, &window, out, fault);
+    enum status status =
+        interface_fit(profile->height_R, profile->fraction, profile->count, &window, out, fault);
+    if (!status && out->sharp)
+        status = fault_set(fault, STATUS_NUMERICAL, "the solved edge is sharper than its grid");
+    return status;
 }

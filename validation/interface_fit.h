@@ -13,6 +13,11 @@
  * upper edge is not an error function.  Measured profiles and solved ones are
  * therefore read by this one function with the same settings.
  *
+ * An edge sharper than the profile's slabs has no width to be read: the sum of squares then falls
+ * towards a step, without end.  Least squares are therefore sought from several starts, and a step
+ * between two heights is tried beside them; where it is the best, `sharp` says so, sigma is 0, and
+ * height and sigma are known to a slab over the root of 12.
+ *
  * Uncertainties are those of the fit, from the scatter about it, for
  * independent noise.  Noise of neighbouring heights in one run is not independent:
  * runs are compared by blocks of time and by seeds.
@@ -41,11 +46,12 @@ struct interface_fit {
     double rms;                                          /* of the residuals in the window (1) */
     double shoulder_rms; /* of those from h - 4 sigma to h - sigma: where the bulk starts to drop */
     size_t used;         /* heights in the window */
+    bool sharp;          /* sharper than the slabs: a step, sigma_R 0 */
 };
 
 /* height_R[0 .. count-1] rising, fraction[0 .. count-1].  STATUS_BAD_INPUT where the window
- * has fewer than eight heights or does not cross phibar/2, STATUS_NUMERICAL where the fit does not
- * converge. */
+ * has fewer than eight heights, does not cross phibar/2 or has its best edge outside,
+ * STATUS_NUMERICAL where the best fit does not converge. */
 enum status interface_fit(const double *height_R, const double *fraction, size_t count,
                           const struct interface_window *window, struct interface_fit *out,
                           struct fault *fault);

@@ -18,7 +18,8 @@
  * of means over blocks of block_s and slabs of slab_R.  D^2 of a stationary profile is not 0 but
  * the noise of a block; the profile is stationary from the first block on that is not above the
  * settled blocks' mean by more than three of their standard deviations.  Beside it: when sigma of a
- * block's mean profile first reaches .9 of the settled one.
+ * block's mean profile first reaches .9 of the settled one.  Blocks without an interface are left
+ * out of that; a run without one has no width and no height, and says why, but all the rest.
  *
  * Source:     Fiege & Zippelius, Section IV A.
  * Leaves out: beds whose phibar changes.
@@ -94,6 +95,18 @@ struct window {
     struct interface_window fit;
 };
 
+/* A profile without an interface has no height and no width, and the reason why; what else a run
+ * tells is told. */
+static enum status no_interface(enum status status, const struct fault *why, const char *of,
+                                const size_t *output, size_t outputs, struct measurement *out,
+                                struct fault *fault) {
+    if (status == STATUS_NO_MEMORY)
+        return fault_set(fault, status, "%s", why->text);
+    for (size_t i = 0; i < outputs; i++)
+        observe_none(out, output[i], "%s: %s", of, why->text);
+    return STATUS_OK;
+}
+
 /* Scatter of the blocks' fits over the root of their number. */
 static enum status measure_blocks(const struct bed *b, const struct window *w, size_t blocks,
                                   double *profile, struct measurement *out, struct fault *fault) {
@@ -128,7 +141,7 @@ static void measure_foot(const struct bed *b, const double *profile, struct meas
 }
 
 /* For figures: slabs of 1 R, or the run's own where these are thicker; the foot in the run's own.
- */
+ * fit: NULL where there is no interface. */
 static enum status add_measured(const struct bed *b, const double *profile,
                                 const struct interface_fit *fit, struct measurement *out,
                                 struct fault *fault) {
@@ -143,12 +156,12 @@ static enum status add_measured(const struct bed *b, const double *profile,
             z[k] += height[i] / (double)pool;
             mean[k] += profile[i] / (double)pool;
         }
-        smooth[k] = interface_fit_at(fit, z[k]);
+        smooth[k] = fit ? interface_fit_at(fit, z[k]) : NAN;
     }
     while (foot < b->fraction.bins && height[foot] < 10)
         foot++;
     enum status status = measurement_add_curve(out, "profile", "measured", z, mean, n, fault);
-    if (!status)
+    if (!status && fit)
         status = measurement_add_curve(out, "fit", "Eq. 14", z, smooth, n, fault);
     if (!status)
         status = measurement_add_curve(out, "foot", "measured", height, profile, foot, fault);
@@ -273,25 +286,45 @@ static enum status measure_temperature(struct run_view *v, const struct bed *b,
     return STATUS_OK;
 }
 
+/* *found: has the window's profile an interface? */
+static enum status measure_fit(const struct bed *b, const struct window *w, const double *profile,
+                               struct measurement *out, struct interface_fit *fit, bool *found,
+                               struct fault *fault) {
+    static const size_t output[] = {SIGMA, SHOULDER_RATIO, HEIGHT, PLATEAU, FIT_RMS};
+    struct fault why = FAULT_NONE;
+    enum status status =
+        interface_fit(b->fraction.height_R, profile, b->fraction.bins, &w->fit, fit, &why);
+    *found = !status;
+    if (status)
+        return no_interface(status, &why, "the window's profile", output, 5, out, fault);
+    out->value[SIGMA] = fit->sigma_R;
+    out->value[HEIGHT] = fit->height_R;
+    out->value[PLATEAU] = fit->plateau;
+    out->value[FIT_RMS] = fit->rms;
+    out->value[SHOULDER_RATIO] = fit->shoulder_rms / fit->rms;
+    for (size_t i = 0; fit->sharp && i < 2; i++) /* the width, and what is beside it */
+        observe_none(out, output[i], "the edge is sharper than slabs of %g R", b->fraction.bin_R);
+    return STATUS_OK;
+}
+
 static enum status measure_profile(const struct bed *b, const struct window *w, size_t blocks,
                                    struct measurement *out, struct fault *fault) {
+    static const size_t errors[] = {SIGMA_ERROR, HEIGHT_ERROR};
     double *profile = malloc(b->fraction.bins * sizeof *profile);
     struct interface_fit fit;
+    struct fault why = FAULT_NONE;
+    bool found;
     if (!profile)
         return fault_set(fault, STATUS_NO_MEMORY, "no memory for a profile");
-    enum status status = measure_blocks(b, w, blocks, profile, out, fault);
+    enum status status = measure_blocks(b, w, blocks, profile, out, &why);
+    if (status)
+        status = no_interface(status, &why, "a block of time", errors, 2, out, fault);
     sphere_profile_mean(&b->fraction, w->first, w->last, profile);
     if (!status)
-        status =
-            interface_fit(b->fraction.height_R, profile, b->fraction.bins, &w->fit, &fit, fault);
+        status = measure_fit(b, w, profile, out, &fit, &found, fault);
     if (!status) {
-        out->value[SIGMA] = fit.sigma_R;
-        out->value[HEIGHT] = fit.height_R;
-        out->value[PLATEAU] = fit.plateau;
-        out->value[FIT_RMS] = fit.rms;
-        out->value[SHOULDER_RATIO] = fit.shoulder_rms / fit.rms;
         measure_foot(b, profile, out);
-        status = add_curves(b, profile, &fit, out, fault);
+        status = add_curves(b, profile, found ? &fit : NULL, out, fault);
     }
     free(profile);
     return status;
@@ -317,9 +350,9 @@ static enum status measure_interface(struct run_view *v, const double *settings,
     if (!status)
         status = measure_motion(v, &b, &w, out, fault);
     if (!status)
-        status = measure_temperature(v, &b, &w, out, fault);
-    if (!status)
         status = measure_profile(&b, &w, blocks, out, fault);
+    if (!status)
+        status = measure_temperature(v, &b, &w, out, fault);
     out->value[BALANCE] = out->value[SIGMA] / out->value[BALANCED_SIGMA];
     sphere_profile_close(&b.fraction);
     return status;
@@ -394,34 +427,57 @@ static size_t first_near(const struct formation *f, double *floor) {
     return i;
 }
 
-/* When sigma first reaches .9 of the settled one, straight between blocks; NAN: never. */
+/* Widths of the blocks that have an interface: time[0 .. *count-1] (s), sigma (R). */
+static enum status block_widths(const struct sphere_profile *p, const struct formation *f,
+                                const struct interface_window *w, double *time, double *sigma,
+                                size_t *count, struct fault *fault) {
+    *count = 0;
+    for (size_t i = 0; i < f->blocks; i++) {
+        struct interface_fit fit;
+        struct fault why = FAULT_NONE;
+        enum status status =
+            interface_fit(p->height_R, f->profile + i * p->bins, p->bins, w, &fit, &why);
+        if (status == STATUS_NO_MEMORY)
+            return fault_set(fault, status, "%s", why.text);
+        if (status)
+            continue;
+        time[*count] = f->time[i];
+        sigma[(*count)++] = fit.sigma_R;
+    }
+    return STATUS_OK;
+}
+
+/* When sigma first reaches .9 of the settled one, straight between blocks.  A block whose edge is
+ * sharper than its slabs has a width of 0. */
 static enum status sigma_time(const struct sphere_profile *p, const struct formation *f,
                               const struct interface_window *w, struct measurement *out,
-                              double *sigma, struct fault *fault) {
+                              struct fault *fault) {
+    double time[BLOCKS_MAX], sigma[BLOCKS_MAX];
+    static const size_t output[] = {SETTLED_SIGMA, SIGMA_TIME};
     struct interface_fit fit;
-    enum status status = interface_fit(p->height_R, f->stationary, p->bins, w, &fit, fault);
-    double wanted = 0.9 * fit.sigma_R;
-    out->value[SETTLED_SIGMA] = fit.sigma_R;
-    out->value[SIGMA_TIME] = NAN;
-    for (size_t i = 0; i < f->blocks && !status; i++) {
-        status = interface_fit(p->height_R, f->profile + i * p->bins, p->bins, w, &fit, fault);
-        sigma[i] = fit.sigma_R;
-        if (isnan(out->value[SIGMA_TIME]) && sigma[i] >= wanted)
-            out->value[SIGMA_TIME] = i == 0 ? f->time[0]
-                                            : f->time[i - 1] + (f->time[i] - f->time[i - 1]) *
-                                                                   (wanted - sigma[i - 1]) /
-                                                                   (sigma[i] - sigma[i - 1]);
-    }
-    if (!status && isnan(out->value[SIGMA_TIME]))
+    struct fault why = FAULT_NONE;
+    size_t n = 0, i = 0;
+    enum status status = interface_fit(p->height_R, f->stationary, p->bins, w, &fit, &why);
+    if (status)
+        return no_interface(status, &why, "the settled profile", output, 2, out, fault);
+    double wanted = 0.9 * (out->value[SETTLED_SIGMA] = fit.sigma_R);
+    status = block_widths(p, f, w, time, sigma, &n, fault);
+    while (i < n && sigma[i] < wanted)
+        i++;
+    if (i == n || fit.sharp)
         observe_none(out, SIGMA_TIME, "sigma does not reach .9 of what it settles at");
-    return status;
+    else
+        out->value[SIGMA_TIME] = i == 0 ? time[0]
+                                        : time[i - 1] + (time[i] - time[i - 1]) *
+                                                            (wanted - sigma[i - 1]) /
+                                                            (sigma[i] - sigma[i - 1]);
+    return status ? status : measurement_add_curve(out, "sigma", "sigma", time, sigma, n, fault);
 }
 
 static enum status measure_formation(struct run_view *v, const double *settings,
                                      struct measurement *out, struct fault *fault) {
     struct bed b = {0};
     struct formation f = {0};
-    double sigma[BLOCKS_MAX];
     const struct series *collisions;
     enum status status = open_bed(v, &b, fault);
     if (!status)
@@ -433,7 +489,7 @@ static enum status measure_formation(struct run_view *v, const double *settings,
     struct interface_window w = {.above_R = settings[FORMATION_ABOVE_R],
                                  .phibar = b.input[BED_PHIBAR]};
     if (!status)
-        status = sigma_time(&b.fraction, &f, &w, out, sigma, fault);
+        status = sigma_time(&b.fraction, &f, &w, out, fault);
     if (!status) {
         size_t near = first_near(&f, &out->value[FLOOR]);
         size_t frame = near * f.frames + f.frames / 2;
@@ -444,7 +500,6 @@ static enum status measure_formation(struct run_view *v, const double *settings,
             observe_none(out, TIME, "not stationary before the time told as settled");
             observe_none(out, FORMED_COLLISIONS, "not stationary before the time told as settled");
         }
-        status = measurement_add_curve(out, "sigma", "sigma", f.time, sigma, f.blocks, fault);
     }
     if (!status)
         status = measurement_add_curve(out, "apart", "D^2", f.time, f.apart, f.blocks, fault);

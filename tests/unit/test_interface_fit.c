@@ -113,12 +113,75 @@ START_TEST(what_has_no_interface_is_refused) {
 }
 END_TEST
 
+/* Counts of spheres in slabs of STEP_R, 2.4 to a slab in the bulk, as few hundred spheres leave
+ * them. */
+static void scatter_counts(gsl_rng *rng, const double *clean, double plateau, double *phi) {
+    for (int i = 0; i < COUNT; i++)
+        phi[i] = gsl_ran_poisson(rng, 2.4 * fmax(clean[i], 0) / plateau) * plateau / 2.4;
+}
+
+/* The least squares of a noisy step fall towards sigma = 0: such an edge is called sharp, and has
+ * its height all the same, to the few slabs that noise leaves. */
+START_TEST(an_edge_sharper_than_its_slabs_is_a_step) {
+    double z[COUNT], clean[COUNT], phi[COUNT], off = 0, mean = 0;
+    int sharp = 0;
+    gsl_rng *rng;
+    struct fault fault = FAULT_NONE;
+    struct interface_fit fit;
+    unit_ok(random_stream(5315, "noise", &rng, &fault), &fault);
+    plant(0.293, 117.19, 1e-3, z, clean);
+    struct interface_window w = {9.7, 0.293, false};
+    unit_ok(interface_fit(z, clean, COUNT, &w, &fit, &fault), &fault);
+    ck_assert(fit.sharp);
+    ck_assert_double_eq_tol(fit.height_R, 117.19, STEP_R / 2);
+    ck_assert_double_eq_tol(fit.height_error_R, STEP_R / sqrt(12), 1e-12);
+    ck_assert_double_lt(fit.rms, 1e-7);
+    ck_assert_double_eq(interface_fit_at(&fit, 117), 0.293);
+    ck_assert_double_eq(interface_fit_at(&fit, 118), 0);
+    for (int t = 0; t < TRIALS; t++) {
+        scatter_counts(rng, clean, 0.293, phi);
+        unit_ok(interface_fit(z, phi, COUNT, &w, &fit, &fault), &fault);
+        sharp += fit.sharp;
+        ck_assert_double_eq(fit.sigma_R, fit.sharp ? 0 : fit.sigma_R);
+        mean += fit.sigma_R / TRIALS;
+        off += (fit.height_R - 117.19) / TRIALS;
+    }
+    ck_assert_int_gt(sharp, TRIALS / 2);
+    ck_assert_double_eq_tol(off, 0, STEP_R);
+    ck_assert_double_lt(mean, 0.7);
+    gsl_rng_free(rng);
+}
+END_TEST
+
+/* The same noise on a wide edge has many small steps to fall into; none of them is taken. */
+START_TEST(a_wide_edge_is_no_step_of_its_noise) {
+    double z[COUNT], clean[COUNT], phi[COUNT], mean = 0;
+    gsl_rng *rng;
+    struct fault fault = FAULT_NONE;
+    struct interface_fit fit;
+    unit_ok(random_stream(71, "noise", &rng, &fault), &fault);
+    plant(0.293, 117.19, 6.4, z, clean);
+    for (int t = 0; t < TRIALS; t++) {
+        struct interface_window w = {9.7, 0.293, t % 2 == 1};
+        scatter_counts(rng, clean, 0.293, phi);
+        unit_ok(interface_fit(z, phi, COUNT, &w, &fit, &fault), &fault);
+        ck_assert(!fit.sharp);
+        ck_assert_double_gt(fit.sigma_R, 1);
+        mean += fit.sigma_R / TRIALS;
+    }
+    ck_assert_double_eq_tol(mean, 6.4, 0.3);
+    gsl_rng_free(rng);
+}
+END_TEST
+
 int main(void) {
     const TTest *const tests[] = {a_smeared_step_is_found_to_round_off,
                                   errors_cover_the_truth_as_often_as_they_say,
                                   the_foot_is_left_out,
                                   the_shoulder_is_told_apart,
                                   what_has_no_interface_is_refused,
+                                  an_edge_sharper_than_its_slabs_is_a_step,
+                                  a_wide_edge_is_no_step_of_its_noise,
                                   NULL};
     return unit_run("interface_fit", tests);
 }

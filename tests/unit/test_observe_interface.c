@@ -20,12 +20,12 @@ static void profile(struct fake_run *f, const char *name, const double *value, d
     fake_append(f, path, 1, &bins, value, time_s, 1.0 / SPHERES_STEP_PER_S);
 }
 
-/* Edge at 103 R, 37 % and sigma as given; a foot at 1.1 R; one temperature; noise of the counts. */
-static void frame(struct fake_run *f, gsl_rng *rng, double sigma, double time_s) {
+/* 37 %, edge and sigma as given; a foot at 1.1 R; one temperature; noise of the counts. */
+static void frame_at(struct fake_run *f, gsl_rng *rng, double edge, double sigma, double time_s) {
     static double phi[BINS], xy[BINS], zz[BINS];
     for (int k = 0; k < BINS; k++) {
         double z = (k + 0.5) * 0.25;
-        phi[k] = 0.37 * gsl_cdf_gaussian_P(103 - z, sigma) + gsl_ran_gaussian(rng, 0.01);
+        phi[k] = 0.37 * gsl_cdf_gaussian_P(edge - z, sigma) + gsl_ran_gaussian(rng, 0.01);
         phi[k] += k == 4 ? 1.1 : 0;
         xy[k] = 0.91 * T_J;
         zz[k] = 0.94 * T_J;
@@ -35,6 +35,10 @@ static void frame(struct fake_run *f, gsl_rng *rng, double sigma, double time_s)
     profile(f, "temperature_zz", zz, time_s);
     spheres_list(f, "centre_of_mass", 3, (const double[]){0, 0, (50 + 2 * time_s) * R}, time_s);
     spheres_counter(f, "collisions", 211.0 * N * time_s / 2, time_s);
+}
+
+static void frame(struct fake_run *f, gsl_rng *rng, double sigma, double time_s) {
+    frame_at(f, rng, 103, sigma, time_s);
 }
 
 static struct fake_run bed(double formed_s) {
@@ -121,9 +125,52 @@ START_TEST(formation_ends_when_it_does) {
 }
 END_TEST
 
+/* A bed that is empty above 10 R has no edge: widths and heights say so, all else is told. */
+START_TEST(a_run_without_an_interface_says_so) {
+    struct fault fault = FAULT_NONE;
+    gsl_rng *rng;
+    unit_ok(random_stream(31, "bed", &rng, &fault), &fault);
+    for (int recipe = 0; recipe < 2; recipe++) {
+        struct fake_run f = spheres_start(N, R, SIDE, "hard", PARAMETERS);
+        struct measurement m;
+        const char *r = recipe ? "bed-formation" : "bed-interface";
+        for (int n = 0; n < FRAMES; n++)
+            frame_at(&f, rng, 8.7, 0.6, n * STEP_S);
+        unit_ok(fake_measure(&f, r, recipe ? "settled_s" : NULL, 0.6, &m), &f.fault);
+        ck_assert(isnan(fake_value(&m, r, recipe ? "settled_sigma" : "sigma")));
+        ck_assert(isnan(fake_value(&m, r, recipe ? "sigma_time" : "height_error")));
+        ck_assert_ptr_nonnull(strstr(m.reason, "does not cross half"));
+        if (recipe)
+            ck_assert_double_gt(fake_value(&m, r, "floor"), 0);
+        else
+            ck_assert_double_eq_tol(fake_value(&m, r, "peak_height"), 1.125, 1e-12);
+        measurement_free(&m);
+    }
+    gsl_rng_free(rng);
+}
+END_TEST
+
+/* Edges of the first frames may be sharper than the slabs of R/4: they have a width of 0. */
+START_TEST(a_sharp_start_counts_as_no_width) {
+    struct fault fault = FAULT_NONE;
+    gsl_rng *rng;
+    unit_ok(random_stream(37, "bed", &rng, &fault), &fault);
+    struct fake_run f = spheres_start(N, R, SIDE, "hard", PARAMETERS);
+    struct measurement m;
+    for (int n = 0; n < FRAMES; n++)
+        frame(&f, rng, n < 10 ? 1e-4 : 5.3, n * STEP_S);
+    unit_ok(fake_measure(&f, "bed-formation", "settled_s", 0.6, &m), &f.fault);
+    const char *r = "bed-formation";
+    ck_assert_double_eq_tol(fake_value(&m, r, "sigma_time"), 9.5 * STEP_S, STEP_S);
+    ck_assert_double_eq(m.curve[0].y[0], 0);
+    measurement_free(&m);
+}
+END_TEST
+
 int main(void) {
-    const TTest *const tests[] = {an_edge_is_measured_as_planted,
-                                  measured_temperatures_are_balanced, formation_ends_when_it_does,
-                                  NULL};
+    const TTest *const tests[] = {
+        an_edge_is_measured_as_planted,   measured_temperatures_are_balanced,
+        formation_ends_when_it_does,      a_run_without_an_interface_says_so,
+        a_sharp_start_counts_as_no_width, NULL};
     return unit_run("observe_interface", tests);
 }
