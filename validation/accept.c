@@ -1,6 +1,6 @@
 #include "validation/accept.h"
 
-#include "common/file.h"
+#include "validation/accept_files.h"
 #include "validation/bits.h"
 #include "validation/scatter.h"
 
@@ -8,8 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 struct clerk {
     const struct accept_source *source;
@@ -314,63 +312,52 @@ double accept_difference(const struct accept_change *change) {
 
 /* -- writing ------------------------------------------------------------------------------ */
 
-struct table { /* one file, old and new */
-    const char *path, *staged, *before;
-    bool replaced, existed;
+struct pages { /* texts of all files */
+    struct arena arena;
+    struct accept_file *file; /* file[0 .. count-1] */
+    char **text;              /* free() each */
+    size_t count;
 };
 
-static enum status stage(const char *folder, const struct accept_case *c, struct arena *a,
-                         struct table *t, struct fault *fault) {
-    char *text = NULL;
-    t->path = arena_text(a, "%s/%s.tsv", folder, c->plan->file->name);
-    t->staged = arena_text(a, "%s.accept.%ld", t->path, (long)getpid());
-    t->before = arena_text(a, "%s.before.%ld", t->path, (long)getpid());
-    char *parent = t->path == NULL ? NULL : arena_copy(a, t->path);
-    if (t->staged == NULL || t->before == NULL || parent == NULL)
+static enum status add_table(const char *folder, const struct accept_case *c, struct pages *p,
+                             struct fault *fault) {
+    struct accept_file *f = &p->file[p->count];
+    f->path = arena_text(&p->arena, "%s/%s.tsv", folder, c->plan->file->name);
+    if (f->path == NULL)
         return no_memory(fault);
-    *strrchr(parent, '/') = '\0';
-    enum status status = reference_text(t->path, c->item, c->count, &text, fault);
+    enum status status = reference_text(f->path, c->item, c->count, &p->text[p->count], fault);
     if (status == STATUS_OK)
-        status = file_make_folder(parent, fault);
-    if (status == STATUS_OK)
-        status = file_write(t->staged, text, strlen(text), fault);
-    struct stat about;
-    t->existed = lstat(t->path, &about) == 0 && S_ISREG(about.st_mode);
-    if (status == STATUS_OK && t->existed && link(t->path, t->before) != 0)
-        status = fault_set(fault, STATUS_IO, "%s: cannot be kept aside", t->path);
-    free(text);
+        f->text = p->text[p->count++];
     return status;
 }
 
-/* Leave what is there, or what was there before. */
-static void tidy(struct table *t, bool restore) {
-    if (restore && t->replaced && t->existed)
-        rename(t->before, t->path);
-    else if (restore && t->replaced)
-        unlink(t->path);
-    if (t->before != NULL)
-        unlink(t->before);
-    if (t->staged != NULL)
-        unlink(t->staged);
+static enum status add_claims(const struct accept_claims *claims, struct pages *p,
+                              struct fault *fault) {
+    enum status status =
+        claims_stored_text(claims->stored, claims->claims, &p->text[p->count], fault);
+    if (status != STATUS_OK)
+        return status;
+    p->file[p->count] = (struct accept_file){claims->stored->path, p->text[p->count]};
+    p->count++;
+    return STATUS_OK;
 }
 
 enum status accept_write(const char *references_folder, const struct accept_case *list,
-                         size_t count, struct fault *fault) {
-    struct arena a = {0};
-    struct table *table = arena_take(&a, count, sizeof *table);
-    enum status status = table == NULL ? no_memory(fault) : STATUS_OK;
+                         size_t count, const struct accept_claims *claims, struct fault *fault) {
+    struct pages p = {0};
+    p.file = arena_take(&p.arena, count + 1, sizeof *p.file);
+    p.text = arena_take(&p.arena, count + 1, sizeof *p.text);
+    enum status status = p.file == NULL || p.text == NULL ? no_memory(fault) : STATUS_OK;
     for (size_t i = 0; status == STATUS_OK && i < count; i++) {
         if (list[i].change_count > 0)
-            status = stage(references_folder, &list[i], &a, &table[i], fault);
+            status = add_table(references_folder, &list[i], &p, fault);
     }
-    for (size_t i = 0; status == STATUS_OK && i < count; i++) {
-        if (table[i].staged == NULL)
-            continue;
-        status = file_replace(table[i].staged, table[i].path, fault);
-        table[i].replaced = status == STATUS_OK;
-    }
-    for (size_t i = 0; table != NULL && i < count; i++)
-        tidy(&table[i], status != STATUS_OK);
-    arena_free(&a);
+    if (status == STATUS_OK && claims != NULL && claims->change_count > 0)
+        status = add_claims(claims, &p, fault);
+    if (status == STATUS_OK)
+        status = accept_files_write(p.file, p.count, fault);
+    for (size_t i = 0; i < p.count; i++)
+        free(p.text[i]);
+    arena_free(&p.arena);
     return status;
 }

@@ -8,11 +8,12 @@
  * where those of this class are as they were: else they are of code that is no more.
  *
  * Leaves out: who may accept, and when: command_accept.c.
- * Checked by: tests/cli/test_bedcheck_accept.py.
+ * Checked by: tests/unit/test_accept.c, tests/cli/test_bedcheck_accept.py.
  */
 #ifndef VALIDATION_ACCEPT_H
 #define VALIDATION_ACCEPT_H
 
+#include "validation/accept_claims.h"
 #include "validation/folder.h"
 #include "validation/measure.h"
 #include "validation/reference.h"
@@ -53,8 +54,8 @@ void accept_free(struct accept_case *c);
 /* Difference of two lines in units of its standard uncertainty; NaN where there is none. */
 double accept_difference(const struct accept_change *change);
 
-/* The tables of all cases that changed: all of them, or none. */
+/* The tables of all cases that changed, and that of the claims (NULL: none): all, or none. */
 enum status accept_write(const char *references_folder, const struct accept_case *list,
-                         size_t count, struct fault *fault);
+                         size_t count, const struct accept_claims *claims, struct fault *fault);
 
 #endif

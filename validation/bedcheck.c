@@ -38,6 +38,7 @@ enum key {
     KEY_SEEDS,
     KEY_CASE,
     KEY_ALL_CHANGED,
+    KEY_CLAIMS,
     KEY_REASON,
     KEY_JSON,
     KEY_MARKDOWN,
@@ -126,6 +127,9 @@ static error_t parse_choice(int key, char *text, struct line *l, struct argp_sta
         return 0;
     case KEY_ALL_CHANGED:
         o->all_changed = true;
+        return 0;
+    case KEY_CLAIMS:
+        o->claims = true;
         return 0;
     case KEY_REASON:
         o->reason = text;
@@ -239,6 +243,7 @@ static const struct argp_option accept_options[] = {
     OPTION_REFERENCES,
     {"case", KEY_CASE, "CASE|GLOB", 0, "Accept this case (may be repeated)", 0},
     {"all-changed", KEY_ALL_CHANGED, 0, 0, "Accept every case of DIR whose references change", 0},
+    {"claims", KEY_CLAIMS, 0, 0, "Accept the verdicts of the papers' claims, and no numbers", 0},
     {"reason", KEY_REASON, "TEXT", 0, "Why they change, in one line", 0},
     {"dry-run", KEY_DRY_RUN, 0, 0, "Show old and new; write nothing", 0},
     {0}};

@@ -134,6 +134,7 @@ struct opening {
     const char *cases_folder, *references_folder;
     enum tier tier;
     const struct plan *wanted;
+    bool refuse;
 };
 
 static enum status fill(struct budget *b, const struct opening *o, struct fault *fault) {
@@ -149,22 +150,20 @@ static enum status fill(struct budget *b, const struct opening *o, struct fault 
     for (size_t i = 0; status == STATUS_OK && i < b->plan->case_count; i++)
         b->statistical += budget_count(&b->plan->cases[i]);
     b->share = SUITE_FALSE_ALARMS / (double)(b->statistical > 0 ? b->statistical : 1);
-    for (size_t i = 0; status == STATUS_OK && i < b->plan->case_count; i++) {
+    for (size_t i = 0; status == STATUS_OK && o->refuse && i < b->plan->case_count; i++) {
         if (is_wanted(o->wanted, b->plan->cases[i].file->name))
             budget_refuse(&b->plan->cases[i], b->references[i], b->share, fault);
     }
     return status == STATUS_OK ? fault->status : status;
 }
 
-enum status budget_open(const char *cases_folder, const char *references_folder, enum tier tier,
-                        const struct plan *wanted, struct budget **out, struct fault *fault) {
+static enum status open_budget(const struct opening *o, struct budget **out, struct fault *fault) {
     struct budget *b = calloc(1, sizeof *b);
     struct fault found = FAULT_NONE;
     *out = NULL;
     if (b == NULL)
         return no_memory(fault);
-    const struct opening o = {cases_folder, references_folder, tier, wanted};
-    enum status status = fill(b, &o, &found);
+    enum status status = fill(b, o, &found);
     if (status == STATUS_OK) {
         *out = b;
         return STATUS_OK;
@@ -172,6 +171,19 @@ enum status budget_open(const char *cases_folder, const char *references_folder,
     *fault = found;
     budget_close(b);
     return status;
+}
+
+enum status budget_open(const char *cases_folder, const char *references_folder, enum tier tier,
+                        const struct plan *wanted, struct budget **out, struct fault *fault) {
+    const struct opening o = {cases_folder, references_folder, tier, wanted, true};
+    return open_budget(&o, out, fault);
+}
+
+enum status budget_open_unrefused(const char *cases_folder, const char *references_folder,
+                                  enum tier tier, const struct plan *wanted, struct budget **out,
+                                  struct fault *fault) {
+    const struct opening o = {cases_folder, references_folder, tier, wanted, false};
+    return open_budget(&o, out, fault);
 }
 
 void budget_close(struct budget *b) {

@@ -38,6 +38,10 @@ struct budget {
  * On error *out is NULL and fault has every finding. */
 enum status budget_open(const char *cases_folder, const char *references_folder, enum tier tier,
                         const struct plan *wanted, struct budget **out, struct fault *fault);
+/* The same for who is to replace references: checks that cannot see what they say are let be. */
+enum status budget_open_unrefused(const char *cases_folder, const char *references_folder,
+                                  enum tier tier, const struct plan *wanted, struct budget **out,
+                                  struct fault *fault);
 void budget_close(struct budget *b); /* NULL is allowed */
 
 /* The stored references of a case; NULL where the budget has no such case. */

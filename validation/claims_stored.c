@@ -253,6 +253,15 @@ enum status claims_stored_put(struct claims_stored *s, const struct claim_stored
     return STATUS_OK;
 }
 
+void claims_stored_remove(struct claims_stored *s, const char *id, enum tier tier) {
+    size_t kept = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        if (s->item[i].tier != tier || strcmp(s->item[i].id, id) != 0)
+            s->item[kept++] = s->item[i];
+    }
+    s->count = kept;
+}
+
 /* -- writing -------------------------------------------------------------------------- */
 
 static int by_text(const void *a, const void *b) {
@@ -288,16 +297,18 @@ static char *text_of(const struct claims_stored *s) {
     return text;
 }
 
-enum status claims_stored_write(const struct claims_stored *s, const struct claims *claims,
-                                struct fault *fault) {
+enum status claims_stored_text(const struct claims_stored *s, const struct claims *claims,
+                               char **out, struct fault *fault) {
     struct claims_stored *again = NULL;
+    *out = NULL;
     char *text = text_of(s);
     if (text == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", s->path);
     enum status status = parse(s->path, text, claims, &again, fault);
-    if (status == STATUS_OK)
-        status = file_write(s->path, text, strlen(text), fault);
     claims_stored_free(again);
-    free(text);
+    if (status == STATUS_OK)
+        *out = text;
+    else
+        free(text);
     return status;
 }

@@ -45,8 +45,11 @@ const struct claim_stored *claims_stored_find(const struct claims_stored *s, con
 enum status claims_stored_put(struct claims_stored *s, const struct claim_stored *item,
                               struct fault *fault);
 
-/* The file, written whole; STATUS_BAD_INPUT where reading it would refuse it. */
-enum status claims_stored_write(const struct claims_stored *s, const struct claims *claims,
-                                struct fault *fault);
+/* s without the line of a claim and tier; none is no fault. */
+void claims_stored_remove(struct claims_stored *s, const char *id, enum tier tier);
+
+/* The file's text; STATUS_BAD_INPUT where reading it would refuse it.  free() it. */
+enum status claims_stored_text(const struct claims_stored *s, const struct claims *claims,
+                               char **out, struct fault *fault);
 
 #endif

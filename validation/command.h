@@ -33,6 +33,7 @@ struct command_options {
     size_t chosen_count;
     const char *reason;      /* accept: --reason */
     bool in_ci, all_changed; /* CI is set in the environment; accept: --all-changed */
+    bool claims;             /* accept: --claims */
     bool tier_given, dry_run, failed, stop_at_failure, stale;
     size_t jobs;
     size_t seed_count;       /* --seeds; 0: as the cases say */

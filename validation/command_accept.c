@@ -9,6 +9,7 @@
 
 #include "common/build.h"
 #include "validation/accept.h"
+#include "validation/accept_claims.h"
 #include "validation/bits.h"
 #include "validation/desk.h"
 #include "validation/review.h"
@@ -26,8 +27,12 @@ struct work {
     struct review *review;
     struct source_tree tree;
     struct desk *desk;
+    struct budget *budget;
     size_t count;
-    struct accept_case *list; /* list[0 .. count-1]: the chosen cases */
+    struct accept_case *list; /* list[0 .. count-1]: the chosen cases, none with --claims */
+    bool *chosen;             /* chosen[0 .. plan->case_count-1], with --claims all */
+    struct assemble_case *cases;
+    struct accept_claims claims;
     struct accept_history history;
     char date[16];
     struct fault *fault;
@@ -60,8 +65,8 @@ static void check_asked(struct work *w) {
         refuse(w, "CI is set: a person accepts references, not a server");
     if (!says_something(o->reason))
         refuse(w, "--reason TEXT: say in one line why the references change");
-    if (o->all_changed == (o->chosen_count > 0))
-        refuse(w, "which cases? --case CASE (may be repeated), or --all-changed");
+    if (o->all_changed + o->claims + (o->chosen_count > 0) != 1)
+        refuse(w, "which cases? --case CASE (may be repeated), --all-changed or --claims");
 }
 
 static void check_record(struct work *w) {
@@ -142,7 +147,7 @@ static bool is_chosen(const struct work *w, const char *name) {
         if (fnmatch(w->o->chosen[i], name, 0) == 0)
             return true;
     }
-    return w->o->all_changed;
+    return w->o->all_changed || w->o->claims;
 }
 
 static void check_choice(struct work *w) {
@@ -173,8 +178,16 @@ static void check_rows(struct work *w, size_t index) {
 static enum status judge(struct work *w) {
     enum verdict worst = VERDICT_PASS;
     struct review *r = w->review;
-    enum status status = desk_create(r->plan, r->outcome, &r->execute, NULL, &w->desk, w->fault);
-    return status == STATUS_OK ? desk_judge(w->desk, &worst, w->fault) : status;
+    struct fault found = FAULT_NONE;
+    enum status status = budget_open_unrefused(r->cases_folder, r->references_folder, r->plan->tier,
+                                               r->plan, &w->budget, &found);
+    if (status == STATUS_OK)
+        status = desk_create(r->plan, r->outcome, &r->execute, NULL, &w->desk, &found);
+    if (status == STATUS_OK)
+        desk_set_budget(w->desk, w->budget);
+    if (status == STATUS_OK)
+        status = desk_judge(w->desk, &worst, &found);
+    return add_findings(w, &found) == STATUS_OK ? w->fault->status : status;
 }
 
 static enum status gather_case(struct work *w, size_t index) {
@@ -195,18 +208,48 @@ static enum status gather_case(struct work *w, size_t index) {
     return w->fault->status;
 }
 
+/* Verdicts of the claims that rest on chosen cases alone; what is wrong with those cases. */
+static enum status gather_claims(struct work *w) {
+    const struct review *r = w->review;
+    struct fault found = FAULT_NONE;
+    for (size_t i = 0; i < r->plan->case_count; i++)
+        w->cases[i] = (struct assemble_case){.plan = &r->plan->cases[i],
+                                             .measured = desk_measured(w->desk, i),
+                                             .rows = desk_rows(w->desk, i)};
+    const struct accept_claims_source source = {.cases_folder = r->cases_folder,
+                                                .references_folder = r->references_folder,
+                                                .tier = r->plan->tier,
+                                                .cases = w->cases,
+                                                .chosen = w->chosen,
+                                                .case_count = r->plan->case_count,
+                                                .commit = w->history.commit,
+                                                .date = w->history.date,
+                                                .reason = w->history.reason};
+    accept_claims_gather(&source, &w->claims, &found);
+    if (add_findings(w, &found) != STATUS_OK)
+        return w->fault->status;
+    for (size_t i = 0; w->o->claims && i < r->plan->case_count; i++) {
+        if (accept_claims_rest_on(&w->claims, &source, i))
+            check_rows(w, i);
+    }
+    return w->fault->status;
+}
+
 static enum status gather(struct work *w) {
     const struct plan *p = w->review->plan;
     w->list = calloc(p->case_count + 1, sizeof *w->list);
-    if (w->list == NULL)
+    w->chosen = calloc(p->case_count + 1, sizeof *w->chosen);
+    w->cases = calloc(p->case_count + 1, sizeof *w->cases);
+    if (w->list == NULL || w->chosen == NULL || w->cases == NULL)
         return fault_set(w->fault, STATUS_NO_MEMORY, "accept: out of memory");
     for (size_t i = 0; i < p->case_count; i++) {
-        if (p->cases[i].skip_reason != NULL || !is_chosen(w, p->cases[i].file->name))
+        w->chosen[i] = p->cases[i].skip_reason == NULL && is_chosen(w, p->cases[i].file->name);
+        if (!w->chosen[i] || w->o->claims)
             continue;
         check_rows(w, i);
         gather_case(w, i);
     }
-    return w->fault->status;
+    return gather_claims(w);
 }
 
 /* -- telling --------------------------------------------------------------------------------- */
@@ -275,6 +318,25 @@ static size_t tell(const struct work *w) {
     return changed;
 }
 
+static void tell_verdict(FILE *out, const struct work *w, const struct accept_verdict *v) {
+    fprintf(out, "  %s %s: %s -> %s: %s\n", case_tier_name(w->review->plan->tier), v->id,
+            v->old == NULL ? "none" : v->old, v->new == NULL ? "none" : v->new, v->why);
+}
+
+static void tell_claims(const struct work *w) {
+    FILE *out = w->console->out;
+    const struct accept_claims *c = &w->claims;
+    if (c->change_count > 0)
+        fputs("claims of the papers: old -> new\n", out);
+    for (size_t i = 0; i < c->change_count; i++)
+        tell_verdict(out, w, &c->change[i]);
+    for (size_t i = 0; i < c->open_count; i++) {
+        const struct accept_verdict *v = &c->open[i];
+        fprintf(out, "  %s %s: undecided, %s: %s\n", case_tier_name(w->review->plan->tier), v->id,
+                v->old == NULL ? "nothing is stored" : "what is stored stays", v->why);
+    }
+}
+
 /* -- the command ------------------------------------------------------------------------------ */
 
 static enum status look(struct work *w) {
@@ -307,14 +369,21 @@ static enum status work_out(struct work *w) {
 }
 
 static enum status finish(struct work *w) {
-    size_t changed = tell(w);
+    size_t changed = tell(w), verdicts = w->claims.change_count;
     enum status status = STATUS_OK;
+    tell_claims(w);
     if (!w->o->dry_run)
-        status = accept_write(w->review->references_folder, w->list, w->count, w->fault);
+        status =
+            accept_write(w->review->references_folder, w->list, w->count, &w->claims, w->fault);
     if (status != STATUS_OK)
         return status;
-    fprintf(w->console->out, "%s: %zu of %zu cases %s\n", w->review->references_folder, changed,
-            w->count, w->o->dry_run ? "would change (--dry-run)" : "changed");
+    FILE *out = w->console->out;
+    fprintf(out, "%s: ", w->review->references_folder);
+    if (!w->o->claims)
+        fprintf(out, "%zu of %zu cases", changed, w->count);
+    if (w->o->claims || verdicts > 0)
+        fprintf(out, "%s%zu claim%s", w->o->claims ? "" : ", ", verdicts, verdicts == 1 ? "" : "s");
+    fprintf(out, " %s\n", w->o->dry_run ? "would change (--dry-run)" : "changed");
     return STATUS_OK;
 }
 
@@ -326,7 +395,11 @@ int command_accept(const struct command_options *o, const struct console *c) {
     for (size_t i = 0; i < w.count; i++)
         accept_free(&w.list[i]);
     free(w.list);
+    accept_claims_free(&w.claims);
+    free(w.cases);
+    free(w.chosen);
     desk_free(w.desk);
+    budget_close(w.budget);
     source_tree_free(&w.tree);
     review_close(w.review);
     return fault.status == STATUS_OK ? 0 : 2;

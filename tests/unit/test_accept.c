@@ -5,6 +5,7 @@
 #include <dirent.h>
 #include <math.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #define COMMIT "0123456789abcdef0123456789abcdef01234567"
 #define HASH   "00112233445566778899aabbccddeeff00112233445566778899aabbccddeeff"
@@ -71,13 +72,13 @@ START_TEST(tables_are_written_and_nothing_is_left_beside_them) {
     struct fault fault = FAULT_NONE;
     struct stage s;
     set_up(&s);
-    unit_ok(accept_write(s.folder, s.list, 2, &fault), &fault);
+    unit_ok(accept_write(s.folder, s.list, 2, NULL, &fault), &fault);
     ck_assert_double_eq(value_in(s.folder, "fake/first"), 1.37);
     ck_assert_double_eq(value_in(s.folder, "fake/second"), 2.37);
     s.line[0].value = 1.41;
     s.list[1].change_count = 0; /* that one stays as it is */
     s.line[1].value = 7;
-    unit_ok(accept_write(s.folder, s.list, 2, &fault), &fault);
+    unit_ok(accept_write(s.folder, s.list, 2, NULL, &fault), &fault);
     ck_assert_double_eq(value_in(s.folder, "fake/first"), 1.41);
     ck_assert_double_eq(value_in(s.folder, "fake/second"), 2.37);
     ck_assert_uint_eq(count_files(s.folder), 2);
@@ -90,14 +91,14 @@ START_TEST(a_table_that_cannot_be_replaced_leaves_all_as_they_were) {
     struct fault fault = FAULT_NONE;
     struct stage s;
     set_up(&s);
-    unit_ok(accept_write(s.folder, s.list, 1, &fault), &fault);
+    unit_ok(accept_write(s.folder, s.list, 1, NULL, &fault), &fault);
     mkdir(unit_path(s.folder, "fake/second.tsv"), 0755);
     s.line[0].value = 1.41;
-    ck_assert_int_ne(accept_write(s.folder, s.list, 2, &fault), STATUS_OK);
+    ck_assert_int_ne(accept_write(s.folder, s.list, 2, NULL, &fault), STATUS_OK);
     ck_assert_double_eq(value_in(s.folder, "fake/first"), 1.37);
     ck_assert_uint_eq(count_files(s.folder), 2); /* the table and the folder */
     unlink(unit_path(s.folder, "fake/first.tsv"));
-    ck_assert_int_ne(accept_write(s.folder, s.list, 2, &fault), STATUS_OK);
+    ck_assert_int_ne(accept_write(s.folder, s.list, 2, NULL, &fault), STATUS_OK);
     ck_assert_uint_eq(count_files(s.folder), 1); /* nor is a new one left */
     unit_remove(s.folder);
 }
@@ -108,9 +109,42 @@ START_TEST(a_bad_line_stops_all_tables) {
     struct stage s;
     set_up(&s);
     s.line[1].value = NAN;
-    ck_assert_int_eq(accept_write(s.folder, s.list, 2, &fault), STATUS_BAD_INPUT);
+    ck_assert_int_eq(accept_write(s.folder, s.list, 2, NULL, &fault), STATUS_BAD_INPUT);
     unit_says(&fault, "fake/second.tsv");
     ck_assert_uint_eq(count_files(s.folder), 0);
+    unit_remove(s.folder);
+}
+END_TEST
+
+/* Tables and verdicts are one step: either file keeps the other as it was. */
+START_TEST(verdicts_and_tables_are_written_together_or_not_at_all) {
+    struct fault fault = FAULT_NONE;
+    struct stage s;
+    struct claim_test test;
+    struct claim one = {.id = "fake-one", .test_count = 1, .test = &test};
+    struct claims all = {.count = 1, .claim = &one};
+    struct accept_claims claims = {.claims = &all, .change_count = 1};
+    const struct claim_stored line = {"fake-one", TIER_SMOKE,   CLAIM_NOT_REPRODUCED,
+                                      COMMIT,     "2026-11-22", "a test"};
+    set_up(&s);
+    unit_ok(claims_stored_load(s.folder, &all, &claims.stored, &fault), &fault);
+    unit_ok(claims_stored_put(claims.stored, &line, &fault), &fault);
+    s.line[1].value = NAN;
+    ck_assert_int_ne(accept_write(s.folder, s.list, 2, &claims, &fault), STATUS_OK);
+    ck_assert(access(unit_path(s.folder, "claims.tsv"), F_OK) != 0);
+    s.line[1].value = 2.37;
+    mkdir(unit_path(s.folder, "claims.tsv"), 0755); /* in its way */
+    ck_assert_int_ne(accept_write(s.folder, s.list, 2, &claims, &fault), STATUS_OK);
+    ck_assert_uint_eq(count_files(s.folder), 0);
+    rmdir(unit_path(s.folder, "claims.tsv"));
+    fault = FAULT_NONE;
+    unit_ok(accept_write(s.folder, s.list, 2, &claims, &fault), &fault);
+    ck_assert_uint_eq(count_files(s.folder), 2);
+    claims_stored_free(claims.stored);
+    unit_ok(claims_stored_load(s.folder, &all, &claims.stored, &fault), &fault);
+    ck_assert_int_eq(claims_stored_find(claims.stored, "fake-one", TIER_SMOKE)->verdict,
+                     CLAIM_NOT_REPRODUCED);
+    claims_stored_free(claims.stored);
     unit_remove(s.folder);
 }
 END_TEST
@@ -131,6 +165,8 @@ int main(void) {
     const TTest *tests[] = {tables_are_written_and_nothing_is_left_beside_them,
                             a_table_that_cannot_be_replaced_leaves_all_as_they_were,
                             a_bad_line_stops_all_tables,
-                            differences_are_in_units_of_their_uncertainty, NULL};
+                            verdicts_and_tables_are_written_together_or_not_at_all,
+                            differences_are_in_units_of_their_uncertainty,
+                            NULL};
     return unit_run("accept", tests);
 }

@@ -54,6 +54,17 @@ START_TEST(no_file_and_no_folder_are_no_verdict) {
 }
 END_TEST
 
+static enum status write_again(const struct claims_stored *s, struct fault *fault) {
+    char *text;
+    enum status status = claims_stored_text(s, &claims, &text, fault);
+    if (status == STATUS_OK)
+        unit_write(s->path, text);
+    else
+        ck_assert_ptr_null(text);
+    free(text);
+    return status;
+}
+
 START_TEST(what_is_written_is_read_again) {
     struct fault fault = FAULT_NONE;
     struct claims_stored *s;
@@ -65,7 +76,7 @@ START_TEST(what_is_written_is_read_again) {
     unit_ok(load(folder, good, &s, &fault), &fault);
     unit_ok(claims_stored_put(s, &fresh, &fault), &fault);
     unit_ok(claims_stored_put(s, &changed, &fault), &fault);
-    unit_ok(claims_stored_write(s, &claims, &fault), &fault);
+    unit_ok(write_again(s, &fault), &fault);
     claims_stored_free(s);
     unit_ok(load(folder, NULL, &s, &fault), &fault);
     ck_assert_uint_eq(s->count, 4);
@@ -73,11 +84,27 @@ START_TEST(what_is_written_is_read_again) {
     ck_assert_str_eq(claims_stored_find(s, "mfm-one", TIER_SMOKE)->reason, "a fault was mended");
     changed.reason = "with a\ttab"; /* reading would refuse it: the file stays */
     unit_ok(claims_stored_put(s, &changed, &fault), &fault);
-    ck_assert_int_eq(claims_stored_write(s, &claims, &fault), STATUS_BAD_INPUT);
+    ck_assert_int_eq(write_again(s, &fault), STATUS_BAD_INPUT);
     claims_stored_free(s);
     fault = FAULT_NONE;
     unit_ok(load(folder, NULL, &s, &fault), &fault);
     ck_assert_str_eq(claims_stored_find(s, "mfm-one", TIER_SMOKE)->reason, "a fault was mended");
+    claims_stored_free(s);
+    unit_remove(folder);
+}
+END_TEST
+
+START_TEST(the_line_of_one_claim_and_tier_is_removed) {
+    struct fault fault = FAULT_NONE;
+    struct claims_stored *s;
+    const char *folder = unit_folder();
+    unit_ok(load(folder, good, &s, &fault), &fault);
+    claims_stored_remove(s, "mfm-one", TIER_LARGE); /* none */
+    claims_stored_remove(s, "mfm-one", TIER_PAPER);
+    ck_assert_uint_eq(s->count, 2);
+    ck_assert_ptr_null(claims_stored_find(s, "mfm-one", TIER_PAPER));
+    ck_assert_ptr_nonnull(claims_stored_find(s, "mfm-one", TIER_SMOKE));
+    ck_assert_ptr_nonnull(claims_stored_find(s, "mfm-two", TIER_PAPER));
     claims_stored_free(s);
     unit_remove(folder);
 }
@@ -127,6 +154,7 @@ int main(void) {
     tcase_add_test(group, verdicts_are_read);
     tcase_add_test(group, no_file_and_no_folder_are_no_verdict);
     tcase_add_test(group, what_is_written_is_read_again);
+    tcase_add_test(group, the_line_of_one_claim_and_tier_is_removed);
     tcase_add_loop_test(group, every_fault_is_told, 0, sizeof bad / sizeof *bad);
     suite_add_tcase(suite, group);
     SRunner *runner = srunner_create(suite);
