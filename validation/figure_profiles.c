@@ -8,8 +8,9 @@
  *                does not reach is left out, and the caption says so.
  * `collisions`   of each sphere since then, 2 N_coll/N: each seed's nearest sample, labelled by
  *                the mean number that it has. Two numbers of one sample are drawn once.
- * `theory`       kinematic (no pressure) or pressure, at the same times, of the first seed's
- *                parameters, from the functions that predictions and observables use.
+ * `theory`       kinematic (no pressure), pressure, or inertial (pressure and inertia), at the
+ *                same times, of the first seed's parameters, from the functions that predictions
+ *                and observables use.
  * `curve`        or a curve of the observable `of`, of the first usable seed.
  * `bin_R`        whole slabs of the run make a bin of about this height, 1 R if nothing is said.
  *
@@ -203,9 +204,10 @@ static void find_shown(struct drawing *d) {
 
 static struct report_series *next_series(struct drawing *d, size_t number) {
     struct report_series *s = &d->series[d->series_count++];
+    bool grey = number == COLOURS; /* the seventh; theory of no moment is grey too, but dashed */
     *s = (struct report_series){.label = "",
-                                .style = number < COLOURS ? SERIES_LINE : SERIES_LINE_POINTS,
-                                .colour = (int)(number % COLOURS),
+                                .style = number <= COLOURS ? SERIES_LINE : SERIES_LINE_POINTS,
+                                .colour = grey ? -1 : (int)(number % COLOURS),
                                 .count = d->shown,
                                 .x = d->height_R};
     return s;
@@ -298,9 +300,11 @@ static enum status add_wave(struct drawing *d, const char *theory, struct fault 
         return status;
     if (strcmp(theory, "kinematic") == 0)
         return add_kinematic(d, &change, bin_m, fault);
-    if (strcmp(theory, "pressure") == 0)
+    change.inertia = strcmp(theory, "inertial") == 0;
+    if (change.inertia || strcmp(theory, "pressure") == 0)
         return add_pressure(d, &change, bin_m, fault);
-    return fault_set(fault, STATUS_BAD_INPUT, "theory: kinematic or pressure, not \"%s\"", theory);
+    return fault_set(fault, STATUS_BAD_INPUT, "theory: kinematic, pressure or inertial, not \"%s\"",
+                     theory);
 }
 
 static enum status add_curve(struct drawing *d, const char *name, struct fault *fault) {
@@ -321,6 +325,12 @@ static enum status add_curve(struct drawing *d, const char *name, struct fault *
     return STATUS_OK;
 }
 
+static const char *wave_name(const char *theory) {
+    return strcmp(theory, "kinematic") == 0  ? "kinematic wave"
+           : strcmp(theory, "pressure") == 0 ? "wave with pressure"
+                                             : "wave with pressure and inertia";
+}
+
 /* Dashed curves and their one entry in the key. */
 static enum status add_theory(struct drawing *d, struct fault *fault) {
     const struct case_figure_setting *setting = d->in->wanted->setting;
@@ -331,12 +341,11 @@ static enum status add_theory(struct drawing *d, struct fault *fault) {
         status = add_curve(d, setting[CURVE].text, fault);
     if (status || d->theories == 0)
         return status;
-    const char *label = setting[THEORY].given
-                            ? arena_text(d->arena, "%s wave", setting[THEORY].text)
-                            : setting[CURVE].text;
+    const char *label =
+        setting[THEORY].given ? wave_name(setting[THEORY].text) : setting[CURVE].text;
     d->series[d->series_count++] =
         (struct report_series){.label = label, .style = SERIES_DASHED, .colour = -1};
-    return label ? STATUS_OK : no_memory(fault);
+    return STATUS_OK;
 }
 
 /* -- the figure ------------------------------------------------------------- */
@@ -428,12 +437,14 @@ const struct figure_recipe figure_profiles = {
     .title = "Packing fraction over height at several times, with theory: one figure a point",
     .observables = 1,
     .optional = true,
-    .setting =
-        {{"times", "since phibar changed, or the start (s)", FIGURE_NUMBERS, false, 0, 0, 1e6},
-         {"collisions", "or so many of each sphere since then", FIGURE_NUMBERS, false, 0, 0, 1e12},
-         {"theory", "kinematic or pressure: waves at the same times", FIGURE_TEXT, false, 0, 0, 0},
-         {"curve", "a curve of the observable, drawn too", FIGURE_CURVE, false, 0, 0, 0},
-         {"bin_R", "slabs of the run are joined to bins of about this (R)", FIGURE_NUMBER, false, 1,
-          0, 1e6}},
+    .setting = {{"times", "since phibar changed, or the start (s)", FIGURE_NUMBERS, false, 0, 0,
+                 1e6},
+                {"collisions", "or so many of each sphere since then", FIGURE_NUMBERS, false, 0, 0,
+                 1e12},
+                {"theory", "kinematic, pressure or inertial: waves at the same times", FIGURE_TEXT,
+                 false, 0, 0, 0},
+                {"curve", "a curve of the observable, drawn too", FIGURE_CURVE, false, 0, 0, 0},
+                {"bin_R", "slabs of the run are joined to bins of about this (R)", FIGURE_NUMBER,
+                 false, 1, 0, 1e6}},
     .build = build,
 };

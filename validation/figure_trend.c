@@ -538,7 +538,7 @@ static const struct trend relaxation = {
     .abscissa_label = "packing fraction phibar changed to",
     .branch = "restitution",
     .theory = {{"kinematic-relaxation-rate", "kinematic wave"},
-               {"pressure-relaxation-rate", "wave with pressure"}},
+               {"inertial-relaxation-rate", "wave with pressure and inertia"}},
     .extra = {"plateau", "exponential_rms", "root_rms", NULL}};
 
 static enum status build_relaxation(const struct figure_input *in, struct figure_output *out,

@@ -1,7 +1,7 @@
 /* pressure_wave.h -- how a bed rises or settles when spheres push each other: the joint of the
  * kinematic wave and the hydrostatic interface.
  *
- * Momentum without inertia at constant temperature, for the mean speed v of spheres at z,
+ * Momentum at constant temperature, for the mean speed v of spheres at z; without inertia
  *
  *     phi v = phi v_k(<phi>, phibar) - mu dp/dz,   mu = 1/gamma
  *     p = (T/m) phi (1 + ((1 + eps)/2) (Z(phi) - 1))
@@ -12,13 +12,16 @@
  * spheres press each other by (1 + eps)/2 of what elastic ones do.  For T ->
  * 0, Delta -> 0 this is the kinematic wave; at rest it is the hydrostatic balance.
  *
+ * With inertia (bed_change.inertia) the flux j follows phi v: dj/dt = -gamma (j - phi v), and (1)
+ * is d phi/dt + dj/dz = 0.
+ *
  * Finite volumes of a height of cell_m: v_k phi with the value upstream, its slope limited (van
  * Leer); pressure implicitly, linear in the change, by a tridiagonal system a step. Solid is
  * conserved to round-off and a state of rest is that of the balance between cells.
  *
  * Source:     Fiege & Zippelius, Eqs. 1 and 9; Carnahan & Starling (sphere_laws.h); docs/theory.md,
- * S7. Leaves out: inertia (1/gamma is 5 to 40 ms), viscosity, changes of temperature, crystals, the
- *             layers of spheres at the floor.
+ * S7. Leaves out: d(j^2/phi)/dz, viscosity, changes of temperature, crystals, the layers of spheres
+ *             at the floor.
  * Checked by: tests/unit/test_pressure_wave.c.
  */
 #ifndef VALIDATION_PRESSURE_WAVE_H

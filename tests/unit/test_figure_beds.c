@@ -4,6 +4,7 @@
 #include "validation/figure_beds.h"
 #include "validation/kinematic_wave.h"
 #include "validation/prediction.h"
+#include "validation/pressure_wave.h"
 
 static const char readings[] = "model: suspension\n"
                                "readings:\n"
@@ -30,9 +31,10 @@ static const char text[] =
     "  - {recipe: sphere-animation, every_s: 0.2, frames: 3}\n"
     "  - {recipe: profiles, bin_R: 0.5, times: [0, 0.3], theory: kinematic}\n"
     "  - {recipe: profiles}\n"
+    "  - {recipe: profiles, bin_R: 0.5, times: [0, 0.3], theory: inertial}\n"
     "tiers: {smoke: {}}\n";
 
-enum { AT_TIMES, BETWEEN, COUNTED, ALL, PANELS, SPREAD, MOVIE, WAVE, NEITHER };
+enum { AT_TIMES, BETWEEN, COUNTED, ALL, PANELS, SPREAD, MOVIE, WAVE, NEITHER, INERTIAL };
 
 START_TEST(profiles_are_means_over_seeds_at_their_times_in_R) {
     struct beds_stage s;
@@ -176,6 +178,40 @@ START_TEST(times_count_from_the_change_and_theory_is_the_wave_of_the_checks) {
 }
 END_TEST
 
+/* The wave of the checks has inertia: it starts late, where the one without does not. */
+START_TEST(theory_with_inertia_is_that_of_the_checks) {
+    struct beds_stage s;
+    struct fault fault;
+    struct run_view *v = NULL;
+    struct bed_change change;
+    struct pressure_wave *w = NULL;
+    double change_s, y[2][BEDS_BINS], apart = 0;
+    beds_set_up(&s, text, readings, true);
+    unit_ok(beds_build(&s, INERTIAL, &fault), &fault);
+    const struct report_panel *p = s.out->figure[0].panel;
+    unit_ok(run_view_open(s.run[0].run, s.run[0].result, &v, &fault), &fault);
+    unit_ok(bed_change_read(v, &change, &change_s, &fault), &fault);
+    for (int inertia = 0; inertia < 2; inertia++) {
+        change.inertia = inertia;
+        unit_ok(pressure_wave_create(&change, BEDS_RADIUS_M / 2, &w, &fault), &fault);
+        if (!change.sharp)
+            unit_ok(pressure_wave_settle(w, &fault), &fault);
+        pressure_wave_change(w);
+        unit_ok(pressure_wave_advance(w, .3, &fault), &fault);
+        pressure_wave_profile(w, .5 * BEDS_RADIUS_M, y[inertia], BEDS_BINS);
+        pressure_wave_free(w);
+    }
+    for (size_t k = 0; k < p->series[3].count; k++) {
+        ck_assert_double_eq_tol(p->series[3].y[k], y[1][k], 1e-12);
+        apart = fmax(apart, fabs(y[1][k] - y[0][k]));
+    }
+    ck_assert_double_gt(apart, 1e-5); /* the drag of the fixture is strong */
+    ck_assert_str_eq(p->series[4].label, "wave with pressure and inertia");
+    run_view_close(v);
+    beds_tear_down(&s);
+}
+END_TEST
+
 START_TEST(points_are_told_apart_by_reading) {
     struct beds_stage s;
     struct measured_case of;
@@ -200,6 +236,7 @@ int main(void) {
                                   spheres_are_shown_from_the_side_in_the_colours_of_their_heights,
                                   without_times_six_and_an_animation_thinned_evenly,
                                   times_count_from_the_change_and_theory_is_the_wave_of_the_checks,
+                                  theory_with_inertia_is_that_of_the_checks,
                                   points_are_told_apart_by_reading,
                                   NULL};
     return unit_run("figure_beds", tests);
