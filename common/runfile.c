@@ -30,6 +30,7 @@ static const struct schema_field CASE_FIELDS[] = {
     {.key = "title", .type = SCHEMA_ANY},
     {.key = "source", .type = SCHEMA_ANY},
     {.key = "question", .type = SCHEMA_ANY},
+    {.key = "equation", .type = SCHEMA_ANY},
     {.key = "model", .type = SCHEMA_TEXT, .required = true},
     {.key = "large_only", .type = SCHEMA_ANY},
     {.key = "tags", .type = SCHEMA_ANY},

@@ -1,9 +1,8 @@
 /* animation.c -- the same grains at many times as a page with a player; see draw.h.
  *
  * The page needs nothing else and may load nothing (a content policy forbids it).  Data stand in
- * it as base64: for each frame x and y of every grain in 65535 parts of the box, 16 bit, low byte
- * first, and, for lit spheres, their depth likewise; radii in parts of the largest; one byte a
- * grain for its kind.  PAGE#t=12.5 begins, and stays, at 12.5.
+ * it as base64: radii in parts of the largest, 16 bit, low byte first; one byte a grain for its
+ * kind; and places by animation_data.c.  PAGE#t=12.5 begins, and stays, at 12.5.
  */
 #include "report/animation.h"
 #include "report/draw.h"
@@ -39,54 +38,27 @@ static void put_block(FILE *out, const char *id, const unsigned char *bytes, siz
     fputs("</script>\n", out);
 }
 
-static double deepest(const struct report_sequence *s) {
-    double most = 0;
-    for (size_t f = 0; s->lit && f < s->frame_count; f++)
-        for (size_t i = 0; i < s->count; i++)
-            most = fmax(most, s->frame[f].depth[i]);
-    return most > 0 ? most : 1;
-}
-
-static void put_frame(FILE *out, const struct report_sequence *s, size_t frame, double most,
-                      unsigned char *room) {
-    const struct report_frame *f = &s->frame[frame];
-    unsigned char *at = room;
-    for (size_t i = 0; i < s->count; i++) {
-        put_word(at, f->position[2 * i] / s->width);
-        put_word(at + 2, f->position[2 * i + 1] / s->height);
-        at += 4;
-        if (s->lit) {
-            put_word(at, f->depth[i] / most);
-            at += 2;
-        }
-    }
-    escape_base64(out, (const char *)room, (size_t)(at - room));
-    fputc('\n', out);
-}
-
-/* room[0 .. 6*count-1] */
-static void put_data(FILE *out, const struct report_sequence *s, unsigned char *room) {
-    double most = largest_radius(s), deep = deepest(s);
+/* room[0 .. 2*count-1] */
+static void put_data(FILE *out, const struct report_sequence *s, const struct animation_data *d,
+                     unsigned char *room) {
+    double most = largest_radius(s);
     put_block(out, "kinds", s->kind, s->count);
     for (size_t i = 0; i < s->count; i++)
         put_word(&room[2 * i], s->radius[i] / most);
     put_block(out, "radii", room, 2 * s->count);
-    fputs("<script type=\"text/plain\" id=\"frames\">\n", out);
-    for (size_t f = 0; f < s->frame_count; f++)
-        put_frame(out, s, f, deep, room);
-    fputs("</script>\n", out);
+    put_block(out, "frames", d->bytes, d->length);
 }
 
-static void put_facts(FILE *out, const struct report_sequence *s) {
+static void put_facts(FILE *out, const struct report_sequence *s, const struct animation_data *d) {
     fprintf(out,
             "<script type=\"application/json\" id=\"facts\">{\"width\":%.9g,\"height\":%.9g,"
-            "\"radius\":%.9g,\"depth\":%.9g,\"lit\":%s,\"ground\":\"%s\",\"colours\":[",
-            s->width, s->height, largest_radius(s), deepest(s), s->lit ? "true" : "false",
+            "\"radius\":%.9g,\"unit\":%.9g,\"lit\":%s,\"ground\":\"%s\",\"colours\":[",
+            s->width, s->height, largest_radius(s), d->unit, s->lit ? "true" : "false",
             draw_ground_colour(s));
     for (size_t k = 0; draw_kind_colour(s, k); k++)
         fprintf(out, "%s\"%s\"", k == 0 ? "" : ",", draw_kind_colour(s, k));
     fputs("],\"times\":[", out);
-    for (size_t f = 0; f < s->frame_count; f++)
+    for (size_t f = 0; f < s->frame_count; f += d->stride)
         fprintf(out, "%s%.9g", f == 0 ? "" : ",", s->frame[f].time);
     fputs("]}</script>\n", out);
 }
@@ -111,8 +83,10 @@ static void put_swatch(FILE *out, const char *colour, const char *label) {
     put_text(out, "", label, "</li>\n");
 }
 
-static void put_controls(FILE *out, const struct report_sequence *s) {
-    double from = s->frame[0].time, to = s->frame[s->frame_count - 1].time;
+static void put_controls(FILE *out, const struct report_sequence *s,
+                         const struct animation_data *d) {
+    double from = s->frame[0].time;
+    double to = s->frame[(s->frame_count - 1) / d->stride * d->stride].time;
     fprintf(out,
             "<div class=\"bar\">\n<button type=\"button\" id=\"play\">Play</button>\n"
             "<button type=\"button\" id=\"back\" aria-label=\"Frame before\">‹</button>\n"
@@ -129,12 +103,12 @@ static void put_controls(FILE *out, const struct report_sequence *s) {
           out);
 }
 
-static void put_body(FILE *out, const struct report_sequence *s) {
+static void put_body(FILE *out, const struct report_sequence *s, const struct animation_data *d) {
     put_text(out, "<body>\n<main>\n<h1>", s->title, "</h1>\n");
     fprintf(out, "<div class=\"frame\" style=\"--ratio:%.6g\">", s->width / s->height);
     put_text(out, "<canvas id=\"box\" role=\"img\" aria-label=\"", s->alt, "\"></canvas></div>\n");
     fputs("<noscript><p>This page needs scripts to draw; it loads nothing.</p></noscript>\n", out);
-    put_controls(out, s);
+    put_controls(out, s, d);
     fputs("<ul class=\"key\">\n", out);
     for (size_t k = 0; draw_kind_colour(s, k); k++)
         put_swatch(out, draw_kind_colour(s, k), s->kind_label[k]);
@@ -146,7 +120,7 @@ static void put_body(FILE *out, const struct report_sequence *s) {
             "<p>%zu stored frames; between them all are moved straight. Space: play or pause. "
             "Arrow keys: frame by frame. Wheel, pinch, + and −: zoom; drag to move; 0: the whole "
             "box.</p>\n</main>\n",
-            s->frame_count);
+            (s->frame_count - 1) / d->stride + 1);
 }
 
 enum status draw_animation(const struct report_sequence *s, struct sheet *page,
@@ -154,21 +128,22 @@ enum status draw_animation(const struct report_sequence *s, struct sheet *page,
     enum status status = draw_check_sequence(s, fault);
     if (status)
         return status;
-    unsigned char *room = calloc(s->count, 6);
+    struct animation_data data = {0};
+    unsigned char *room = calloc(s->count, 2);
     if (!room)
         return fault_set(fault, STATUS_NO_MEMORY, "animation %s: out of memory", s->name);
-    status = sheet_open(page, fault);
-    if (status)
+    if ((status = animation_pack(s, &data, fault)) || (status = sheet_open(page, fault)))
         goto done;
     put_head(page->out, s);
-    put_body(page->out, s);
-    put_facts(page->out, s);
-    put_data(page->out, s, room);
+    put_body(page->out, s, &data);
+    put_facts(page->out, s, &data);
+    put_data(page->out, s, &data, room);
     fprintf(page->out, "<script>\n%s</script>\n</body>\n</html>\n", animation_script());
     status = sheet_close(page, fault);
     if (status)
         sheet_free(page);
 done:
+    free(data.bytes);
     free(room);
     return status;
 }

@@ -10,8 +10,8 @@
  * at, and the browser's scaling smooths their edges.
  *
  * Sequences of the same grains are SVG files (side by side) and HTML pages with a player on a
- * canvas (animations), both drawn from shapes, so that they stay sharp when zoomed. They have a
- * light ground of their own.
+ * canvas (animations), both drawn from shapes, so that they stay sharp when zoomed. In the report's
+ * page stand small palette PNGs of them (raster.c). They have a light ground of their own.
  */
 #ifndef REPORT_DRAW_H
 #define REPORT_DRAW_H
@@ -31,7 +31,12 @@ enum status draw_figure(const struct report_figure *f, const char *prefix, struc
 enum status draw_embed_svg(const char *file, const struct report_figure *f, const char *prefix,
                            struct sheet *svg, struct fault *fault);
 
-enum { DRAW_INLINE_PX_PER_L = 12, DRAW_FULL_PX_PER_L = 24, DRAW_MAX_PX = 8000 };
+enum {
+    DRAW_INLINE_PX_PER_L = 12,
+    DRAW_FULL_PX_PER_L = 24,
+    DRAW_LEAST_PX_PER_L = 4,
+    DRAW_MAX_PX = 8000
+};
 
 struct drawing {
     char *bytes; /* bytes[0 .. length-1], a PNG file; free() it */
@@ -62,10 +67,19 @@ enum status draw_spheres(const struct report_sequence *s, size_t frame, double p
  */
 enum status draw_check_sequence(const struct report_sequence *s, struct fault *fault);
 
-/* All frames side by side, an SVG file.  On success sheet_free it; the same for those below. */
+/* The box of a frame as a palette PNG of so many pixels a lattice constant; free out->bytes. */
+enum status draw_panel(const struct report_sequence *s, size_t frame, double px_per_l,
+                       struct drawing *out, struct fault *fault);
+
+/* All frames side by side, an SVG file of shapes.  On success sheet_free it; the same for those
+ * below. */
 enum status draw_sequence(const struct report_sequence *s, struct sheet *svg, struct fault *fault);
 
-/* The middle frame with a sign to start playing, an SVG file. */
+/* The same for a page: the boxes are pictures (draw_panel) of at least DRAW_LEAST_PX_PER_L. */
+enum status draw_sequence_small(const struct report_sequence *s, struct sheet *svg,
+                                struct fault *fault);
+
+/* The middle frame as such a picture with a sign to start playing, an SVG file. */
 enum status draw_poster(const struct report_sequence *s, struct sheet *svg, struct fault *fault);
 
 /* A page that plays the frames, needing nothing else: about 5.4 bytes a grain and frame. */

@@ -1,6 +1,7 @@
 /* figure.c -- one report_figure as a gnuplot script; see draw.h. */
 #include "report/draw.h"
 #include "report/gnuplot.h"
+#include "report/thin.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -17,7 +18,8 @@ enum {
     FONT = 15,
     CHARACTER = 10, /* of the key, on average */
     KEY_SAMPLE = 64,
-    MAX_PANELS = 3
+    MAX_PANELS = 3,
+    TALLEST = 360
 };
 
 static const double POINT = .9, SMALL_POINT = .5; /* gnuplot's unit */
@@ -188,7 +190,7 @@ static void put_key_entries(FILE *out, const struct report_figure *f) {
 }
 
 static struct layout lay_out(const struct report_figure *f) {
-    static const double tall[MAX_PANELS] = {360, 300, 270}, low = 150;
+    static const double tall[MAX_PANELS] = {TALLEST, 300, 270}, low = 150;
     struct layout l = {0};
     int longest = 1;
     for (size_t p = 0; p < f->panel_count; p++) {
@@ -271,25 +273,72 @@ static void put_labels(FILE *out, const struct report_figure *f, const struct la
 
 /* -- data ------------------------------------------------------------------- */
 
-static void put_data(FILE *out, const struct report_figure *f, size_t panel, struct range visible) {
+static const double UNSEEN_PX = .15;
+
+static double place_px(double value, struct range r, bool is_log, double size_px) {
+    if (is_log)
+        return log(value / r.low) / log(r.high / r.low) * size_px;
+    return (value - r.low) / (r.high - r.low) * size_px;
+}
+
+/* keep[0 .. count-1]: the points of a line that are needed to see it; all of what has points. */
+static void choose_points(const struct report_figure *f, const struct report_panel *p,
+                          const struct report_series *s, struct range x, struct range y,
+                          struct thin_point *point, bool *keep) {
+    for (size_t i = 0; i < s->count; i++)
+        keep[i] = true;
+    for (size_t from = 0, to; !has_points(s) && from < s->count; from = to + 1) {
+        for (to = from; to < s->count && is_drawable(f, p, s, to); to++) {
+            double value[THIN_CURVES] = {s->y[to], s->y[to] - error_of(s, to),
+                                         s->y[to] + error_of(s, to)};
+            point[to].x = place_px(s->x[to], x, f->x_log, WIDTH);
+            for (size_t c = 0; c < THIN_CURVES; c++)
+                point[to].y[c] =
+                    place_px(p->y_log ? fmax(value[c], y.low) : value[c], y, p->y_log, TALLEST);
+        }
+        thin_curve(&point[from], to - from, UNSEEN_PX, &keep[from]);
+    }
+}
+
+static void put_points(FILE *out, const struct report_figure *f, const struct report_panel *p,
+                       const struct report_series *s, double lowest, const bool *keep) {
+    for (size_t i = 0; i < s->count; i++) {
+        if (!keep[i])
+            continue;
+        if (!is_drawable(f, p, s, i)) {
+            fprintf(out, "NaN NaN NaN NaN\n");
+            continue;
+        }
+        double low = s->y[i] - error_of(s, i);
+        if (p->y_log)
+            low = fmax(low, lowest);
+        fprintf(out, "%.9g %.9g %.9g %.9g\n", s->x[i], s->y[i], low, s->y[i] + error_of(s, i));
+    }
+}
+
+static enum status put_data(FILE *out, const struct report_figure *f, size_t panel,
+                            struct fault *fault) {
     const struct report_panel *p = &f->panel[panel];
+    struct range x = x_range(f), y = y_range(f, p);
     for (size_t k = 0; k < p->series_count; k++) {
         const struct report_series *s = &p->series[k];
         if (count_drawable(f, p, s) == 0)
             continue;
-        fprintf(out, "$data_%zu_%zu << EOD\n", panel, k);
-        for (size_t i = 0; i < s->count; i++) {
-            if (!is_drawable(f, p, s, i)) {
-                fprintf(out, "NaN NaN NaN NaN\n");
-                continue;
-            }
-            double low = s->y[i] - error_of(s, i);
-            if (p->y_log)
-                low = fmax(low, visible.low);
-            fprintf(out, "%.9g %.9g %.9g %.9g\n", s->x[i], s->y[i], low, s->y[i] + error_of(s, i));
+        struct thin_point *point = calloc(s->count, sizeof *point);
+        bool *keep = calloc(s->count, sizeof *keep);
+        if (point && keep) {
+            choose_points(f, p, s, x, y, point, keep);
+            fprintf(out, "$data_%zu_%zu << EOD\n", panel, k);
+            put_points(out, f, p, s, y.low, keep);
+            fprintf(out, "EOD\n");
         }
-        fprintf(out, "EOD\n");
+        bool is_done = point && keep;
+        free(point);
+        free(keep);
+        if (!is_done)
+            return fault_set(fault, STATUS_NO_MEMORY, "figure %s: out of memory", f->name);
     }
+    return STATUS_OK;
 }
 
 /* Uncertainty: a band around a line, bars on points (vectors with flat heads: around the points
@@ -342,7 +391,8 @@ static void put_panel(FILE *out, const struct report_figure *f, const struct lay
     fprintf(out, "\nunset label 1\n");
 }
 
-static void put_script(FILE *out, const struct report_figure *f) {
+static enum status put_script(FILE *out, const struct report_figure *f, struct fault *fault) {
+    enum status status = STATUS_OK;
     struct layout l = lay_out(f);
     struct range x = x_range(f);
     fprintf(out, "set terminal svg size %d,%.0f font 'sans-serif,%d' background '#ffffff'\n", WIDTH,
@@ -353,13 +403,14 @@ static void put_script(FILE *out, const struct report_figure *f) {
             "set grid lw .7 lc rgb '#dddddd'\nset key at screen .5,%.6f center top horizontal "
             "Left reverse noenhanced samplen 2.5 spacing 1.2 maxcols %d\n",
             1 - (TOP - 6) / l.height, l.key_columns);
-    for (size_t p = 0; p < f->panel_count; p++)
-        put_data(out, f, p, y_range(f, &f->panel[p]));
+    for (size_t p = 0; p < f->panel_count && !status; p++)
+        status = put_data(out, f, p, fault);
     fprintf(out, "set multiplot\nset lmargin at screen %.6f\nset rmargin at screen %.6f\n",
             (double)LEFT / WIDTH, 1 - (double)RIGHT / WIDTH);
     for (size_t p = 0; p < f->panel_count; p++)
         put_panel(out, f, &l, p, x);
     fprintf(out, "unset multiplot\n");
+    return status;
 }
 
 static enum status check(const struct report_figure *f, struct fault *fault) {
@@ -385,8 +436,7 @@ enum status draw_figure(const struct report_figure *f, const char *prefix, struc
         return status;
     if ((status = sheet_open(&script, fault)))
         return status;
-    put_script(script.out, f);
-    if ((status = sheet_close(&script, fault)))
+    if ((status = put_script(script.out, f, fault)) || (status = sheet_close(&script, fault)))
         goto done;
     if ((status = gnuplot_run(&script, &file, &length, fault))) {
         fault_within(fault, "figure %s", f->name);

@@ -8,8 +8,10 @@
 #include "common/digest.h"
 #include "common/file.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void html_text(struct page *p, const char *before, const char *text, const char *after) {
     fputs(before, p->out);
@@ -45,6 +47,18 @@ void html_pre(struct page *p, const char *text) {
     fputs("<pre tabindex=\"0\"><code>", p->out);
     escape_markup(p->out, text);
     fputs("</code></pre>\n", p->out);
+}
+
+/* A PDF that ci/pdf has made of an earlier page must not stand beside this one. */
+static enum status remove_pdf(const char *folder, struct fault *fault) {
+    enum status status = STATUS_OK;
+    char *path = file_join(folder, "report.pdf");
+    if (!path)
+        return fault_set(fault, STATUS_NO_MEMORY, "report: out of memory");
+    if (unlink(path) != 0 && errno != ENOENT)
+        status = fault_set(fault, STATUS_IO, "%s: cannot be removed: %s", path, strerror(errno));
+    free(path);
+    return status;
 }
 
 /* Only this script may run: the policy names its digest. */
@@ -100,7 +114,7 @@ enum status report_write_html(const struct report *r, const char *folder, struct
     struct sheet sheet = {0};
     char *path = NULL;
     enum status status = file_make_folder(folder, fault);
-    if (status || (status = sheet_open(&sheet, fault)))
+    if (status || (status = remove_pdf(folder, fault)) || (status = sheet_open(&sheet, fault)))
         return status;
     struct page page = {.out = sheet.out, .report = r, .folder = folder};
     status = put_page(&page, fault);

@@ -96,9 +96,10 @@ static enum status sequence(struct page *p, const struct report_case *c,
     enum status status = name_of_file(c, s->name, ".svg", &name, fault);
     if (status)
         return status;
-    if ((status = draw_sequence(s, &svg, fault)))
+    if ((status = draw_sequence(s, &svg, fault)) || (status = save(p, name.text, &svg, fault)))
         goto done;
-    if ((status = save(p, name.text, &svg, fault)))
+    sheet_free(&svg);
+    if ((status = draw_sequence_small(s, &svg, fault)))
         goto done;
     put_figure(p, "sequence", c, GALLERY_SEQUENCE, (size_t)(s - c->sequence));
     html_text(p, "<h3>", s->title, "</h3>\n");

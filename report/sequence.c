@@ -39,6 +39,8 @@ const char *draw_length_unit(const struct report_sequence *s) {
 const char *draw_ground_colour(const struct report_sequence *s) {
     return s->lit ? DRAW_LIT_GROUND_COLOUR : DRAW_GROUND_COLOUR;
 }
+/* Pixels of a picture for one of the drawing: smooth edges need fewer than hard ones. */
+static const double PIXELS = 1.25, PIXELS_LIT = 1.5;
 static const char INK[] = "#222222";
 
 struct layout {
@@ -57,7 +59,8 @@ struct dot {
 struct pen {
     FILE *out;
     const struct report_sequence *s;
-    double unit; /* l */
+    double pixels; /* of a picture, for one of the drawing; 0: shapes */
+    double unit;   /* l */
     double least, most;
     struct dot *dot; /* dot[0 .. count-1] */
 };
@@ -169,6 +172,23 @@ static enum status put_spheres(struct pen *p, size_t frame, double left, double 
     return status;
 }
 
+static enum status put_picture(struct pen *p, size_t frame, double left, double top, double scale,
+                               struct fault *fault) {
+    struct drawing panel;
+    double px_per_l = fmax(p->pixels * scale, DRAW_LEAST_PX_PER_L);
+    enum status status = draw_panel(p->s, frame, px_per_l, &panel, fault);
+    if (status)
+        return status;
+    fprintf(p->out,
+            "<image x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" "
+            "preserveAspectRatio=\"none\" href=\"data:image/png;base64,",
+            left, top, scale * p->s->width, scale * p->s->height);
+    escape_base64(p->out, panel.bytes, panel.length);
+    fputs("\"/>\n", p->out);
+    free(panel.bytes);
+    return STATUS_OK;
+}
+
 /* A panel whose upper left corner lies at (left, top) px. */
 static enum status put_panel(struct pen *p, size_t frame, double left, double top, double scale,
                              struct fault *fault) {
@@ -176,7 +196,9 @@ static enum status put_panel(struct pen *p, size_t frame, double left, double to
     enum status status = STATUS_OK;
     fprintf(p->out, "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"%s\"/>\n",
             left, top, width, height, draw_ground_colour(p->s));
-    if (p->s->lit)
+    if (p->pixels > 0)
+        status = put_picture(p, frame, left, top, scale, fault);
+    else if (p->s->lit)
         status = put_spheres(p, frame, left, top + height, scale, fault);
     else
         put_grains(p, &p->s->frame[frame], left, top + height, scale);
@@ -281,10 +303,10 @@ enum status draw_check_sequence(const struct report_sequence *s, struct fault *f
     return status;
 }
 
-static enum status pen_open(struct pen *p, const struct report_sequence *s, struct sheet *svg,
-                            struct fault *fault) {
+static enum status pen_open(struct pen *p, const struct report_sequence *s, double pixels,
+                            struct sheet *svg, struct fault *fault) {
     enum status status = draw_check_sequence(s, fault);
-    *p = (struct pen){.s = s, .least = (double)INFINITY};
+    *p = (struct pen){.s = s, .pixels = pixels, .least = (double)INFINITY};
     if (status)
         return status;
     for (size_t i = 0; i < s->count; i++) {
@@ -313,9 +335,10 @@ static enum status pen_close(struct pen *p, struct sheet *svg, enum status statu
     return status;
 }
 
-enum status draw_sequence(const struct report_sequence *s, struct sheet *svg, struct fault *fault) {
+static enum status draw(const struct report_sequence *s, double pixels, struct sheet *svg,
+                        struct fault *fault) {
     struct pen p;
-    enum status status = pen_open(&p, s, svg, fault);
+    enum status status = pen_open(&p, s, pixels, svg, fault);
     if (status)
         return pen_close(&p, svg, status, fault);
     struct layout l = lay_out(s);
@@ -330,9 +353,18 @@ enum status draw_sequence(const struct report_sequence *s, struct sheet *svg, st
     return pen_close(&p, svg, status, fault);
 }
 
+enum status draw_sequence(const struct report_sequence *s, struct sheet *svg, struct fault *fault) {
+    return draw(s, 0, svg, fault);
+}
+
+enum status draw_sequence_small(const struct report_sequence *s, struct sheet *svg,
+                                struct fault *fault) {
+    return draw(s, s->lit ? PIXELS_LIT : PIXELS, svg, fault);
+}
+
 enum status draw_poster(const struct report_sequence *s, struct sheet *svg, struct fault *fault) {
     struct pen p;
-    enum status status = pen_open(&p, s, svg, fault);
+    enum status status = pen_open(&p, s, s->lit ? PIXELS_LIT : PIXELS, svg, fault);
     if (status)
         return pen_close(&p, svg, status, fault);
     size_t middle = s->frame_count / 2;

@@ -123,7 +123,8 @@ static enum status build_case(struct builder *b, const struct assemble_case *c,
     *out = (struct report_case){.name = file->name,
                                 .title = file->title,
                                 .source = file->source,
-                                .question = file->question};
+                                .question = file->question,
+                                .equation = file->equation};
     out->command = command_of(b, file->name);
     out->skip_reason = c->plan->skip_reason != NULL ? c->plan->skip_reason : c->not_run;
     out->skipped = c->rows == NULL;

@@ -197,6 +197,7 @@ struct case_file {
     struct readings *readings; /* of its model; NULL: it uses none */
     struct case_file *runs;    /* `runs_of:` the case whose runs it reads, or NULL */
     const char *path, *name, *title, *source, *question, *model;
+    const char *equation;   /* that is tested, with its number; NULL: none */
     const char *large_only; /* why there is no smoke tier, or NULL */
     size_t tag_count, observable_count, across_count, figure_count, dataset_count;
     const char *const *tag;

@@ -13,6 +13,7 @@ static const struct schema_field case_fields[] = {
     {"title", SCHEMA_TEXT, true, 0, 0, NULL},
     {"source", SCHEMA_TEXT, true, 0, 0, NULL},
     {"question", SCHEMA_TEXT, true, 0, 0, NULL},
+    {"equation", SCHEMA_TEXT, false, 0, 0, NULL},
     {"model", SCHEMA_TEXT, true, 0, 0, NULL},
     {"large_only", SCHEMA_TEXT, false, 0, 0, NULL},
     {"tags", SCHEMA_LIST, false, 0, 0, NULL},
@@ -108,8 +109,13 @@ static void read_texts(struct case_reader *r, const char *name) {
     struct case_file *c = r->c;
     const struct {
         const char *key, **out;
-    } text[] = {{"name", &c->name},         {"title", &c->title}, {"source", &c->source},
-                {"question", &c->question}, {"model", &c->model}, {"large_only", &c->large_only}};
+    } text[] = {{"name", &c->name},
+                {"title", &c->title},
+                {"source", &c->source},
+                {"question", &c->question},
+                {"equation", &c->equation},
+                {"model", &c->model},
+                {"large_only", &c->large_only}};
     for (size_t i = 0; i < sizeof text / sizeof *text; i++) {
         const struct yaml_node *n = yaml_get(r->root, text[i].key);
         if (n == NULL || n->kind != YAML_SCALAR)

@@ -64,7 +64,7 @@ START_TEST(ids_are_unique_in_a_page_of_two_figures) {
     const char *folder = unit_folder();
     char *text = written(&s.report, folder);
     size_t count = collect_ids(text, ids, 1000);
-    ck_assert_uint_gt(count, 30);
+    ck_assert_uint_gt(count, 25);
     for (size_t i = 1; i < count; i++)
         ck_assert_str_ne(ids[i - 1], ids[i]);
     for (size_t i = 0; i < count; i++)
