@@ -71,7 +71,8 @@ static const char *read_tag(const char *s, struct tag *t) {
     s = skip_space(s + t->name.length);
     while (*s && *s != '>' && *s != '/') {
         struct attribute a = {.name = {s, strcspn(s, "= \t\n>")}};
-        const char *quote = skip_space(s + a.name.length + 1);
+        const char *equals = skip_space(s + a.name.length); /* gnuplot has `points = '...'` too */
+        const char *quote = *equals == '=' ? skip_space(equals + 1) : "";
         const char *end = *quote ? strchr(quote + 1, *quote) : NULL;
         if (!end)
             return s + strlen(s);
@@ -210,8 +211,8 @@ static void put_path(FILE *out, struct span d) {
     }
 }
 
-/* Numbers with at most two digits after the point; all else as it is. */
-static void put_rounded(FILE *out, struct span text) {
+/* Numbers in parts of 1/unit, 10 or 100; all else as it is. */
+static void put_rounded(FILE *out, struct span text, long unit) {
     for (size_t i = 0; i < text.length;) {
         size_t digits = strspn(text.at + i, "0123456789.");
         digits = digits < text.length - i ? digits : text.length - i;
@@ -219,7 +220,7 @@ static void put_rounded(FILE *out, struct span text) {
             fputc(text.at[i++], out);
             continue;
         }
-        put_fixed(out, lround(100 * strtod(text.at + i, NULL)), 100, false);
+        put_fixed(out, lround((double)unit * strtod(text.at + i, NULL)), unit, false);
         i += digits;
     }
 }
@@ -250,9 +251,11 @@ static void put_value(struct shrinker *w, struct attribute a) {
         put_path(w->out, v);
     else if (is_word(a.name, "stroke") || is_word(a.name, "fill") || is_word(a.name, "color"))
         put_colour(w->out, v);
+    else if (is_word(a.name, "points"))
+        put_rounded(w->out, v, 10);
     else if (is_word(a.name, "transform") || is_word(a.name, "stroke-width") ||
-             is_word(a.name, "points") || is_word(a.name, "font-size"))
-        put_rounded(w->out, v);
+             is_word(a.name, "fill-opacity") || is_word(a.name, "font-size"))
+        put_rounded(w->out, v, 100);
     else if (is_word(a.name, "id"))
         fprintf(w->out, "%s%.*s", w->prefix, (int)v.length, v.at);
     else if (refers)

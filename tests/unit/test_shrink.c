@@ -72,6 +72,13 @@ START_TEST(points_share_a_group_and_only_their_symbols_stay) {
 }
 END_TEST
 
+START_TEST(bands_are_read_with_spaces_around_their_equals_signs) {
+    ck_assert_str_eq(shrink("<polygon fill = 'rgb(0, 114, 178)' fill-opacity = '0.200000' "
+                            "points = '107.99,423.82 115.61,424.85 '/>"),
+                     "<polygon fill='#0072b2' fill-opacity='.2' points='108,423.8 115.6,424.9 '/>");
+}
+END_TEST
+
 START_TEST(words_stay_as_they_are) {
     const char *text = "<text>a  id='x' L1,2 &lt;use href='#gp'/&gt;  <tspan dy='-7.5px'>-5</tspan>"
                        "</text>";
@@ -93,6 +100,7 @@ int main(void) {
                                   empty_groups_and_defaults_go,
                                   points_share_a_group_and_only_their_symbols_stay,
                                   words_stay_as_they_are,
+                                  bands_are_read_with_spaces_around_their_equals_signs,
                                   broken_files_end,
                                   NULL};
     return unit_run("shrink", tests);
