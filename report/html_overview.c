@@ -92,7 +92,7 @@ static void put_changes(struct page *p) {
     fprintf(p->out, "<dt>Since the reference</dt>\n<dd><p class=\"changes\">");
     words_changes(p->out, r);
     fprintf(p->out, "</p>\n");
-    if (r->bits.same + r->bits.other > 0) {
+    if (words_has_bits(r)) {
         fprintf(p->out, "<p class=\"bits\">");
         words_bits(p->out, r);
         fprintf(p->out, "</p>\n");

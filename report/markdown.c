@@ -163,7 +163,7 @@ static void put_head(FILE *out, const struct report *r) {
     words_budget(out, r);
     fputs(r->budget.statistical > 0 ? "\n\n" : "\n", out);
     words_bits(out, r);
-    fputs(r->bits.same + r->bits.other > 0 ? "\n" : "", out);
+    fputs(words_has_bits(r) ? "\n" : "", out);
     for (size_t i = 0; i < r->case_count; i++) {
         if (!r->cases[i].skipped)
             continue;

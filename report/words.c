@@ -237,9 +237,18 @@ void words_budget(FILE *out, const struct report *r) {
                 a.rows, a.rows - a.unknown, words_number(a.sum).text, a.unknown);
 }
 
+bool words_has_bits(const struct report *r) {
+    bool is_smoke = r->tier != NULL && strcmp(r->tier, "smoke") == 0; /* others store none */
+    return r->bits.same + r->bits.other + (is_smoke ? r->bits.unknown : 0) > 0;
+}
+
 void words_bits(FILE *out, const struct report *r) {
     const struct report_bits *b = &r->bits;
     size_t known = b->same + b->other;
+    if (known == 0 && words_has_bits(r))
+        fprintf(out,
+                "No bits of this class of build are stored for the %zu runs: statistics decide.",
+                b->unknown);
     if (known == 0)
         return;
     fprintf(out, "%zu of %zu runs have the bits of their references: unchanged.", b->same, known);

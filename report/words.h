@@ -46,6 +46,7 @@ void words_changes(FILE *out, const struct report *r);
  * their references.  Nothing where nothing is known. */
 void words_budget(FILE *out, const struct report *r);
 void words_bits(FILE *out, const struct report *r);
+bool words_has_bits(const struct report *r); /* is there anything to say? */
 
 /* "PASS", "FAIL", "INCONCLUSIVE", "ONLY KNOWN DISAGREEMENTS", "NOTHING JUDGED" */
 const char *words_headline(const struct report *r);

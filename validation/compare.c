@@ -178,6 +178,14 @@ static struct interval separate(const struct results_row *a, const struct result
     return (struct interval){u, quantile(level, freedom) * u};
 }
 
+/* Would a change that matters have been seen? */
+static bool is_enough(const struct compare_row *r) {
+    const double seen = 1.645; /* uncertainties: with 95 % */
+    if (strcmp(r->old->kind, "regression") != 0)
+        return fabs(r->difference) + r->half_width <= r->unit;
+    return r->half_width + seen * r->uncertainty <= r->old->detectable;
+}
+
 static enum status compare_scattered(struct clerk *k, struct compare_row *r) {
     const struct results_row *a = r->old, *b = r->new;
     double least = sqrt(DBL_EPSILON) * fmax(fmax(fabs(a->measured), fabs(b->measured)), r->unit);
@@ -195,7 +203,7 @@ static enum status compare_scattered(struct clerk *k, struct compare_row *r) {
     if (fabs(r->difference) > r->half_width)
         r->change = CHANGE_SIGNIFICANT;
     else
-        r->change = fabs(r->difference) + r->half_width <= r->unit ? CHANGE_SAME : CHANGE_UNDECIDED;
+        r->change = is_enough(r) ? CHANGE_SAME : CHANGE_UNDECIDED;
     if (r->change == CHANGE_UNDECIDED)
         r->note = "too few data to see a change as large as the tolerance";
     return r->how == NULL ? no_memory(k) : STATUS_OK;
@@ -211,9 +219,11 @@ static enum status compare_pair(struct clerk *k, struct compare_row *r) {
                                        : "there was no number before";
         return STATUS_OK;
     }
-    if (same_values(r->old, r->new)) {
+    if (r->old->same_bits || same_values(r->old, r->new)) {
         r->change = CHANGE_UNCHANGED;
         r->difference = r->uncertainty = r->half_width = 0;
+        if (r->old->same_bits)
+            r->note = "the bits of its runs are the reference's";
         return STATUS_OK;
     }
     if (scatters(r->old, r->new))
@@ -291,7 +301,7 @@ static enum status compare_all(struct clerk *k) {
     enum status status = pair_all(k);
     for (size_t i = 0; i < c->row_count; i++)
         c->tests += is_open(&c->row[i]) && scatters(c->row[i].old, c->row[i].new);
-    k->level = c->level / 2 / (double)(c->tests > 0 ? c->tests : 1);
+    k->level = c->level / (c->old->references ? 1 : 2) / (double)(c->tests > 0 ? c->tests : 1);
     for (size_t i = 0; status == STATUS_OK && i < c->row_count; i++) {
         if (is_open(&c->row[i]))
             status = compare_pair(k, &c->row[i]);

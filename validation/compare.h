@@ -8,13 +8,16 @@
  *
  * with f the degrees of freedom behind u (the seeds' own, an ensemble's, or none to count
  * where the check declares its scatter: normal).  Both are formed, each at half of the
- * level, and the shorter one counts; L is the whole comparison's level, two-sided, divided
- * by the number of rows whose value scatters (Bonferroni).  Then the row is
+ * level, and the shorter one counts (with stored references there is only the second); L is the
+ * whole comparison's level, two-sided, divided by the number of rows whose value scatters
+ * (Bonferroni).  Then the row is
  *
- *     unchanged     every a_i = b_i to the last bit
- *     same          d +- h lies within one tolerance T of the check: no change of that size
+ *     unchanged     every a_i = b_i to the last bit; or all bits of its runs are the references'
+ *     same          d +- h lies within one tolerance T of the check: no change of that size; of a
+ *                   regression check, whose T is itself of chance: with uncertainty u of d,
+ *                   h + 1.645 u is at most the change that the check sees with 95 %
  *     significant   |d| > h, and d is more than rounding
- *     undecided     else: too few data to see a change as large as the tolerance
+ *     undecided     else: too few data to see a change that large
  *     other         not comparable: other runs, other observables, other seeds
  *
  * Values without scatter (uncertainty 0) are compared seed by seed, the largest change is

@@ -83,6 +83,21 @@ static void pair_row(struct reader *r, const struct results_row *row, const stru
     a->run_count = a->value_count = 0;
 }
 
+/* After pair_rows and compare_all_bits: the rows all of whose runs have their references' bits. */
+static void mark_same_bits(struct reader *r) {
+    for (size_t i = 0; i < r->old->row_count; i++) {
+        struct results_row *a = &r->old_row[i];
+        const struct results_row *b = results_find(r->new, a);
+        size_t equal = 0;
+        for (size_t k = 0; b != NULL && k < b->run_count; k++) {
+            for (size_t n = 0; n < r->runs->run_count; n++)
+                equal += r->runs->run[n].bits == BITS_EQUAL &&
+                         strcmp(r->runs->run[n].name, b->run[k]) == 0;
+        }
+        a->same_bits = b != NULL && equal > 0 && equal == b->run_count;
+    }
+}
+
 /* The references' own history is one of many commits. */
 static void date_references(struct reader *r, const struct reference *e) {
     if (*r->old->started == '\0' || strcmp(r->old->started, e->date) < 0)
@@ -259,6 +274,8 @@ enum status compare_references_load(const struct results *judged, const char *fo
         (status = load_all(&r)) == STATUS_OK && (status = pair_rows(&r)) == STATUS_OK &&
         (status = own_texts(&r)) == STATUS_OK)
         status = compare_all_bits(&r);
+    if (status == STATUS_OK)
+        mark_same_bits(&r);
     for (size_t i = 0; i < r.kept_count; i++)
         reference_free(r.kept[i].references);
     free(r.kept);

@@ -34,7 +34,7 @@ void compare_words_values(FILE *out, const struct compare_row *r) {
         return;
     }
     fprintf(out, "%s", words_measured(a->measured, a->uncertainty).text);
-    if (r->change != CHANGE_UNCHANGED)
+    if (r->change != CHANGE_UNCHANGED || a->same_bits)
         fprintf(out, " -> %s", words_measured(b->measured, b->uncertainty).text);
     fprintf(out, "%s", words_unit(a->unit).text);
 }

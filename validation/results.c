@@ -144,6 +144,7 @@ static void read_row(struct reader *r, const struct yaml_node *n, struct results
                                 .expected = real_of(r, n, "expected"),
                                 .expected_uncertainty = real_of(r, n, "expected_uncertainty"),
                                 .tolerance = real_of(r, n, "tolerance"),
+                                .detectable = real_of(r, n, "detectable"),
                                 .freedom = real_of(r, n, "freedom")};
     if (isnan(row->freedom))
         row->freedom = INFINITY;

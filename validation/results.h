@@ -24,9 +24,11 @@ struct results_row {
     const char *comparison, *kind, *verdict, *reason;
     const char *key, *meaning; /* as reference_key has them: observable, digest; NULL: none */
     bool reference;            /* not a row of results, but what is stored as its reference */
+    bool same_bits;            /* of a reference: all runs compared with it have its bits */
     size_t twin;               /* how many rows before it have its case, check and point */
     double measured, uncertainty, expected, expected_uncertainty, tolerance; /* NaN: null */
-    double freedom; /* degrees of freedom of the uncertainty; INFINITY where it is declared */
+    double detectable; /* change that the check sees with 95 %; NaN: not known */
+    double freedom;    /* degrees of freedom of the uncertainty; INFINITY where it is declared */
     size_t run_count, value_count;
     const char *const *run; /* run[0 .. run_count-1], names with their seeds */
     const double *value;    /* value[0 .. value_count-1], one a seed; NaN: missing */

@@ -110,6 +110,43 @@ START_TEST(scatter_as_large_as_the_tolerance_decides_nothing) {
 }
 END_TEST
 
+/* A mean of 36 stored seeds against four fresh ones, whose difference is within their scatter. */
+static void fill_stored(struct side *a, struct side *b, double shift) {
+    fill_pair(a, b, 1, shift);
+    a->results.references = a->row[0].reference = true;
+    a->row[0].run_count = a->row[0].value_count = 0;
+    a->row[0].uncertainty = .018 / 6;
+    b->row[0].uncertainty = .018 / 2;
+    a->row[0].freedom = b->row[0].freedom = 35;
+    a->row[0].kind = b->row[0].kind = "regression";
+    a->row[0].tolerance = b->row[0].tolerance = .034;
+}
+
+START_TEST(a_regression_check_must_have_seen_what_it_can_see) {
+    struct side a, b;
+    fill_stored(&a, &b, .013);
+    /* u .00949, h = t(1e-3, 35) u = .0341; with 95 % a change of h + 1.645 u is seen: .0497 */
+    a.row[0].detectable = b.row[0].detectable = .0499;
+    expect(&a, &b, CHANGE_SAME, 0);
+    a.row[0].detectable = b.row[0].detectable = .0493;
+    expect(&a, &b, CHANGE_UNDECIDED, 3);
+    a.row[0].detectable = b.row[0].detectable = NAN;
+    expect(&a, &b, CHANGE_UNDECIDED, 3);
+    fill_stored(&a, &b, .037);
+    a.row[0].detectable = b.row[0].detectable = 1;
+    expect(&a, &b, CHANGE_SIGNIFICANT, 1);
+}
+END_TEST
+
+START_TEST(the_bits_of_a_reference_are_unchanged_at_once) {
+    struct side a, b;
+    fill_stored(&a, &b, .013);
+    a.row[0].detectable = b.row[0].detectable = NAN;
+    a.row[0].same_bits = true;
+    expect(&a, &b, CHANGE_UNCHANGED, 0);
+}
+END_TEST
+
 START_TEST(seeds_that_agree_sharpen_the_comparison) {
     struct side a, b;
     double value[SEEDS];
@@ -260,6 +297,8 @@ int main(void) {
                                   exchanged_seeds_are_the_same,
                                   a_change_of_five_tolerances_is_seen_on_either_side,
                                   scatter_as_large_as_the_tolerance_decides_nothing,
+                                  a_regression_check_must_have_seen_what_it_can_see,
+                                  the_bits_of_a_reference_are_unchanged_at_once,
                                   seeds_that_agree_sharpen_the_comparison,
                                   the_interval_is_students,
                                   the_level_is_divided_over_the_rows,
