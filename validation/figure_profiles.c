@@ -325,10 +325,13 @@ static enum status add_curve(struct drawing *d, const char *name, struct fault *
     return STATUS_OK;
 }
 
-static const char *wave_name(const char *theory) {
-    return strcmp(theory, "kinematic") == 0  ? "kinematic wave"
-           : strcmp(theory, "pressure") == 0 ? "wave with pressure"
-                                             : "wave with pressure and inertia";
+/* For the key, where long entries take room, and for the caption. */
+static const char *wave_name(const char *theory, bool in_full) {
+    if (strcmp(theory, "kinematic") == 0)
+        return "kinematic wave";
+    if (strcmp(theory, "pressure") == 0)
+        return in_full ? "wave with pressure" : "pressure wave";
+    return in_full ? "wave with pressure and inertia" : "inertial wave";
 }
 
 /* Dashed curves and their one entry in the key. */
@@ -342,7 +345,7 @@ static enum status add_theory(struct drawing *d, struct fault *fault) {
     if (status || d->theories == 0)
         return status;
     const char *label =
-        setting[THEORY].given ? wave_name(setting[THEORY].text) : setting[CURVE].text;
+        setting[THEORY].given ? wave_name(setting[THEORY].text, false) : setting[CURVE].text;
     d->series[d->series_count++] =
         (struct report_series){.label = label, .style = SERIES_DASHED, .colour = -1};
     return STATUS_OK;
@@ -357,15 +360,21 @@ static const char *caption_of(const struct drawing *d) {
     const char *mean =
         seeds > 1 ? arena_text(d->arena, "means over %zu seeds, with their standard error", seeds)
                   : "one seed";
+    const struct case_figure_setting *wave = &d->in->wanted->setting[THEORY];
     const char *theory =
-        d->theories == 0 ? "" : " Dashed: theory, for the parameters of the first seed.";
+        d->theories == 0
+            ? ""
+            : arena_text(d->arena, " Dashed: theory%s%s, for the parameters of the first seed.",
+                         wave->given ? ", the " : "",
+                         wave->given ? wave_name(wave->text, true) : "");
     const char *what = d->by_collisions ? "Collisions are those of each sphere, two of a pair's "
                                           "one; each seed's nearest sample. "
                                         : "";
-    return mean ? arena_text(d->arena, "%s%sSolid: %s; times and collisions %s. %s%s%s%s",
-                             own ? own : "", own ? " " : "", mean, origin, what,
-                             "The floor is at 0: no centre is below R.", theory, d->missing)
-                : NULL;
+    return mean && theory
+               ? arena_text(d->arena, "%s%sSolid: %s; times and collisions %s. %s%s%s%s",
+                            own ? own : "", own ? " " : "", mean, origin, what,
+                            "The floor is at 0: no centre is below R.", theory, d->missing)
+               : NULL;
 }
 
 static double highest(const struct drawing *d) {

@@ -206,7 +206,8 @@ START_TEST(theory_with_inertia_is_that_of_the_checks) {
         apart = fmax(apart, fabs(y[1][k] - y[0][k]));
     }
     ck_assert_double_gt(apart, 1e-5); /* the drag of the fixture is strong */
-    ck_assert_str_eq(p->series[4].label, "wave with pressure and inertia");
+    ck_assert_str_eq(p->series[4].label, "inertial wave");
+    beds_says(s.out->figure[0].caption, "theory, the wave with pressure and inertia, for");
     run_view_close(v);
     beds_tear_down(&s);
 }
