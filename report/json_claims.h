@@ -1,11 +1,17 @@
-/* json_claims.h -- the papers' claims in results.json; only json_report.c includes this. */
+/* json_claims.h -- members of results.json beside its rows. */
 #ifndef REPORT_JSON_CLAIMS_H
 #define REPORT_JSON_CLAIMS_H
 
-#include "common/json.h"
 #include "report/report.h"
 
-/* The member "claims" of the object that is being written; empty where there is no ledger. */
+#include "common/json.h"
+
+/* The member "claims": an empty array where the report has no ledger. */
 void json_claims(struct json *j, const struct report *r);
+
+/* The members "limits" (what no check can see), "unselected" (cases that nobody asked for) and
+ * "agreement" (bias and scatter of all checks; null where there is none). */
+void json_limits(struct json *j, const struct report *r);
+void json_agreement(struct json *j, const struct report *r);
 
 #endif

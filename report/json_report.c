@@ -8,8 +8,11 @@
  *                  expected_uncertainty, tolerance, comparison, kind, verdict, because, reason,
  *                  runs: [id], values: [number], seeds: [integer], freedom, key,
  *                  meaning, detectable, alarm_rate, since, bits}],
+ *      "agreement": {groups: [{group, rows, cases, bias, scatter: {value, low, high}, noise}],
+ *                    left_out: {round_off, one_sided, other}},
  *      "claims": [see json_claims.c],
  *      "skipped": [{case, reason}],
+ *      "limits": [{model, what, because}], "unselected": [case],
  *      "provenance": {name: value}}
  *
  * Strict JSON: a number that is none is null, and `reason` then says why.
@@ -166,8 +169,10 @@ static void put_report(struct json *j, const struct report *r) {
             put_row(j, &r->cases[i].row[k]);
     }
     json_end_array(j);
+    json_agreement(j, r);
     json_claims(j, r);
     put_skipped(j, r);
+    json_limits(j, r);
     json_key(j, "provenance");
     json_begin_object(j);
     for (size_t i = 0; i < r->fact_count; i++)

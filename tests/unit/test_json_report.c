@@ -104,6 +104,36 @@ START_TEST(a_known_disagreement_is_counted_and_dated) {
 }
 END_TEST
 
+START_TEST(limits_and_agreement_are_there) {
+    struct sample s;
+    struct yaml_document *d;
+    struct fault fault = FAULT_NONE;
+    sample_fill(&s);
+    const struct report_limit limit[] = {{"suspension", "\"wakes\"", "no flow"}};
+    const char *unselected[] = {"graingas/packed-bed"};
+    const struct report_group group[] = {
+        {"graingas", 7, 2, .973, (double)NAN, (double)NAN, .0371, .021, .0613, .0119}};
+    const struct report_agreement agreement = {
+        .group_count = 1, .round_off = 5, .one_sided = 3, .other = 2, .group = group};
+    s.report.limit = limit;
+    s.report.unselected = unselected;
+    s.report.limit_count = s.report.unselected_count = 1;
+    s.report.agreement = &agreement;
+    char *text = written(&s.report);
+    unit_ok(yaml_parse("results.json", text, strlen(text), &d, &fault), &fault);
+    const struct yaml_node *root = yaml_root(d), *all = yaml_get(root, "agreement");
+    ck_assert_str_eq(text_at(&yaml_get(root, "limits")->child[0], "what"), "\"wakes\"");
+    ck_assert_str_eq(yaml_get(root, "unselected")->child[0].text, "graingas/packed-bed");
+    const struct yaml_node *first = &yaml_get(all, "groups")->child[0];
+    ck_assert_double_eq(strtod(text_at(yaml_get(first, "bias"), "value"), NULL), .973);
+    ck_assert_str_eq(text_at(yaml_get(first, "bias"), "low"), "null");
+    ck_assert_double_eq(strtod(text_at(yaml_get(first, "scatter"), "high"), NULL), .0613);
+    ck_assert_str_eq(text_at(yaml_get(all, "left_out"), "one_sided"), "3");
+    yaml_free(d);
+    free(text);
+}
+END_TEST
+
 START_TEST(a_folder_that_is_none_is_a_fault) {
     struct sample s;
     struct fault fault = FAULT_NONE;
@@ -114,9 +144,12 @@ START_TEST(a_folder_that_is_none_is_a_fault) {
 END_TEST
 
 int main(void) {
-    const TTest *const tests[] = {
-        every_row_has_every_member,       what_is_no_number_is_null_and_explained,
-        a_modified_solver_is_named,       a_known_disagreement_is_counted_and_dated,
-        a_folder_that_is_none_is_a_fault, NULL};
+    const TTest *const tests[] = {every_row_has_every_member,
+                                  what_is_no_number_is_null_and_explained,
+                                  a_modified_solver_is_named,
+                                  limits_and_agreement_are_there,
+                                  a_known_disagreement_is_counted_and_dated,
+                                  a_folder_that_is_none_is_a_fault,
+                                  NULL};
     return unit_run("json_report", tests);
 }
