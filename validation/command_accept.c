@@ -190,6 +190,19 @@ static enum status judge(struct work *w) {
     return add_findings(w, &found) == STATUS_OK ? w->fault->status : status;
 }
 
+/* A regression check must see what it says with the new numbers and its case's own seeds: one
+ * diverging run among them makes it blind. */
+static void check_power(struct work *w, const struct accept_case *c) {
+    const struct plan *all = w->budget->plan;
+    struct references fresh = {.count = c->count, .item = c->item};
+    struct fault found = FAULT_NONE;
+    for (size_t i = 0; i < all->case_count; i++) {
+        if (strcmp(all->cases[i].file->name, c->plan->file->name) == 0)
+            budget_refuse(&all->cases[i], &fresh, w->budget->share, &found);
+    }
+    add_findings(w, &found);
+}
+
 static enum status gather_case(struct work *w, size_t index) {
     const struct plan_case *c = &w->review->plan->cases[index];
     struct case_file *own = NULL; /* as its text says, whatever --seeds said */
@@ -202,8 +215,10 @@ static enum status gather_case(struct work *w, size_t index) {
                                    .results = w->review->folder,
                                    .references_folder = w->review->references_folder,
                                    .history = w->history};
-    accept_gather(&source, &w->list[w->count++], &found);
-    add_findings(w, &found);
+    struct accept_case *fresh = &w->list[w->count++];
+    accept_gather(&source, fresh, &found);
+    if (add_findings(w, &found) == STATUS_OK)
+        check_power(w, fresh);
     case_free(own);
     return w->fault->status;
 }

@@ -451,6 +451,33 @@ def test_a_failed_check_is_refused(bench):
     assert bench.accept(choice=["--case", "fake/second"]).returncode == 0  # no fault of that one
 
 
+def blow_up(bench, value):
+    """One run of 68 gives another overlap, and no model check looks at it."""
+    text = CASE[:CASE.index("  - name: overlap")] + CASE[CASE.index("  - name: solid"):]
+    bench.write("cases/fake/steady.yaml", text)
+    bench.commit("no model check")
+    bench.rebuild(commit=bench.head())
+    if value is not None:
+        with h5py.File(sorted((bench.out / "h5").glob("*.h5"))[20], "r+") as file:
+            file["observables/largest_overlap/value"][-1] = value
+    return {"choice": ["--case", "fake/steady"]}
+
+
+@pytest.mark.parametrize("value, why", [
+    (math.nan, "run with seed"),
+    (math.inf, "run with seed"),
+    (1.7e8, "check unchanged at height_l="),
+    (0.0513, "says that it detects 2 %"),
+])
+def test_a_diverging_run_pins_no_reference(bench, value, why):
+    choice = blow_up(bench, value)
+    refused(bench, why, **choice)
+
+
+def test_the_same_runs_without_it_are_accepted(bench):
+    assert bench.accept(**blow_up(bench, None)).returncode == 0
+
+
 def test_a_failed_run_is_refused(bench):
     bench.write("cases/fake/steady.yaml", CASE.replace("mode: good", "mode: numerical"))
     bench.commit("a solver that gives up")
