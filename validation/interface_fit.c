@@ -157,12 +157,19 @@ static void step(const struct data *d, struct interface_fit *out) {
     out->rms = sqrt(mean_square(d, out, -INFINITY, INFINITY));
 }
 
-/* A noisy profile may have several minima, one of them a step: a few starts, and the least. */
+/* Sums of squares that differ by less than 2 standard errors of one unknown are not told apart. */
+static bool told_apart(double less_rms, double more_rms, size_t count) {
+    double n = (double)count, scatter = more_rms * more_rms * n / (n - 2);
+    return n * (more_rms * more_rms - less_rms * less_rms) > 4 * scatter;
+}
+
+/* A noisy profile may have several minima, one of them a step: a few starts, and the least; the
+ * step only where it is better than any width that can be told apart from none. */
 static enum status least(struct data *d, const double *start, struct interface_fit *out,
                          struct fault *fault) {
-    static const double wider[] = {1, 0.25, 4};
+    static const double wider[] = {1, 0.25, 4, 2, 0.5};
+    struct interface_fit best = {.rms = INFINITY};
     bool settled = true;
-    step(d, out);
     for (size_t i = 0; i < sizeof wider / sizeof *wider; i++) {
         double x[] = {start[HEIGHT], start[WIDTH] * wider[i], start[PLATEAU]};
         struct interface_fit fit = {0};
@@ -170,11 +177,16 @@ static enum status least(struct data *d, const double *start, struct interface_f
         enum status status = solve(d, x, &fit, &converged, fault);
         if (status)
             return status;
-        if (!(fit.rms < out->rms) || fit.sigma_R < d->grid_R / sqrt(12))
+        if (!(fit.rms < best.rms) || fit.sigma_R < d->grid_R / sqrt(12))
             continue;
-        *out = fit;
+        best = fit;
         settled = converged;
     }
+    step(d, out);
+    if (best.used > 0 && (best.rms <= out->rms || !told_apart(out->rms, best.rms, d->count)))
+        *out = best;
+    else
+        settled = true;
     if (!settled)
         return fault_set(
             fault, STATUS_NUMERICAL,

@@ -15,8 +15,8 @@
  *
  * An edge sharper than the profile's slabs has no width to be read: the sum of squares then falls
  * towards a step, without end.  Least squares are therefore sought from several starts, and a step
- * between two heights is tried beside them; where it is the best, `sharp` says so, sigma is 0, and
- * height and sigma are known to a slab over the root of 12.
+ * between two heights is tried beside them; where it is told apart as the best, `sharp` says so,
+ * sigma is 0, and height and sigma are known to a slab over the root of 12.
  *
  * Uncertainties are those of the fit, from the scatter about it, for
  * independent noise.  Noise of neighbouring heights in one run is not independent:

@@ -302,8 +302,9 @@ static enum status measure_fit(const struct bed *b, const struct window *w, cons
     out->value[PLATEAU] = fit->plateau;
     out->value[FIT_RMS] = fit->rms;
     out->value[SHOULDER_RATIO] = fit->shoulder_rms / fit->rms;
-    for (size_t i = 0; fit->sharp && i < 2; i++) /* the width, and what is beside it */
-        observe_none(out, output[i], "the edge is sharper than slabs of %g R", b->fraction.bin_R);
+    if (fit->sharp) /* sigma is 0, to a slab; there is no shoulder beside it */
+        observe_none(out, SHOULDER_RATIO, "the edge is sharper than slabs of %g R",
+                     b->fraction.bin_R);
     return STATUS_OK;
 }
 
