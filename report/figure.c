@@ -18,6 +18,8 @@ enum {
     FONT = 15,
     CHARACTER = 10, /* of the key, on average */
     KEY_SAMPLE = 64,
+    NAME_CHARACTER = 9, /* of names on the x axis */
+    MAX_NAME = 22,
     MAX_PANELS = 3,
     TALLEST = 360
 };
@@ -98,6 +100,8 @@ static struct range x_range(const struct report_figure *f) {
             }
         }
     }
+    if (f->x_name_count > 0)
+        return (struct range){-.6, (double)f->x_name_count - .4};
     return range_padded(r, f->x_log, .03);
 }
 
@@ -189,6 +193,21 @@ static void put_key_entries(FILE *out, const struct report_figure *f) {
     }
 }
 
+/* Characters of the longest name on the x axis, as it is drawn. */
+static int longest_name(const struct report_figure *f) {
+    int longest = 0;
+    for (size_t i = 0; i < f->x_name_count; i++) {
+        int length = character_count(f->x_name[i]);
+        longest = length > longest ? length : longest;
+    }
+    return longest < MAX_NAME ? longest : MAX_NAME;
+}
+
+/* Names that would run into each other stand at a slope. */
+static bool names_are_sloped(const struct report_figure *f) {
+    return longest_name(f) * NAME_CHARACTER * (int)f->x_name_count > WIDTH - LEFT - RIGHT;
+}
+
 static struct layout lay_out(const struct report_figure *f) {
     static const double tall[MAX_PANELS] = {TALLEST, 300, 270}, low = 150;
     struct layout l = {0};
@@ -212,6 +231,8 @@ static struct layout lay_out(const struct report_figure *f) {
         y = l.bottom[p] + GAP;
     }
     l.height = y - GAP + BOTTOM;
+    if (names_are_sloped(f))
+        l.height += .45 * NAME_CHARACTER * longest_name(f);
     return l;
 }
 
@@ -253,6 +274,35 @@ static void put_axis(FILE *out, char axis, bool is_log, struct range r) {
         put_log_tics(out, axis, r);
     }
     fprintf(out, "set %crange [%.12g:%.12g]\n", axis, r.low, r.high);
+}
+
+/* The name, or its beginning. */
+static void put_name(FILE *out, const char *name) {
+    char text[4 * MAX_NAME + 8];
+    size_t bytes = 0;
+    int count = 0;
+    if (character_count(name) <= MAX_NAME) {
+        gnuplot_put_text(out, name);
+        return;
+    }
+    for (; count < MAX_NAME && name[bytes] != '\0'; count++)
+        do
+            bytes++;
+        while (((unsigned char)name[bytes] & 0xc0) == 0x80);
+    snprintf(text, sizeof text, "%.*s…", (int)bytes, name);
+    gnuplot_put_text(out, text);
+}
+
+static void put_names(FILE *out, const struct report_figure *f, bool shown) {
+    fprintf(out, "set xtics noenhanced %s (",
+            names_are_sloped(f) ? "rotate by 27 right" : "norotate");
+    for (size_t i = 0; i < f->x_name_count; i++) {
+        if (i > 0)
+            fprintf(out, ", ");
+        put_name(out, shown ? f->x_name[i] : "");
+        fprintf(out, " %zu", i);
+    }
+    fprintf(out, ")\n");
 }
 
 /* Labels stand at fixed places: gnuplot's own move with the width of the numbers, and are left
@@ -372,7 +422,9 @@ static void put_panel(FILE *out, const struct report_figure *f, const struct lay
     put_axis(out, 'x', f->x_log, x);
     put_axis(out, 'y', p->y_log, y);
     put_labels(out, f, l, panel);
-    if (!is_last)
+    if (f->x_name_count > 0)
+        put_names(out, f, is_last);
+    else if (!is_last)
         fprintf(out, "set format x ''\n");
     if (panel > 0 && !p->y_log)
         fprintf(out, "set ytics autofreq %.9g\n", nice_step(y.high - y.low));
@@ -418,6 +470,8 @@ static enum status check(const struct report_figure *f, struct fault *fault) {
         return fault_set(fault, STATUS_BAD_INPUT, "figure %s: %zu panels; 1 to %d can be drawn",
                          f->name, f->panel_count, MAX_PANELS);
     enum status status = gnuplot_check_text(f->x_label, "x label", fault);
+    for (size_t i = 0; i < f->x_name_count && !status; i++)
+        status = gnuplot_check_text(f->x_name[i], "name on the x axis", fault);
     for (size_t p = 0; p < f->panel_count && !status; p++) {
         status = gnuplot_check_text(f->panel[p].y_label, "y label", fault);
         for (size_t k = 0; k < f->panel[p].series_count && !status; k++)

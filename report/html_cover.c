@@ -25,10 +25,12 @@ static void put_unselected(struct page *p) {
     const struct report *r = p->report;
     if (r->unselected_count == 0)
         return;
-    fprintf(p->out, "<p>Cases of this tier that nobody asked for here:");
+    fprintf(p->out,
+            "<details><summary>%zu case%s of this tier that nobody asked for here</summary>\n<p>",
+            r->unselected_count, r->unselected_count == 1 ? "" : "s");
     for (size_t i = 0; i < r->unselected_count; i++)
-        html_text(p, i == 0 ? " <code>" : ", <code>", r->unselected[i], "</code>");
-    fprintf(p->out, ".</p>\n");
+        html_text(p, i == 0 ? "<code>" : ", <code>", r->unselected[i], "</code>");
+    fprintf(p->out, ".</p></details>\n");
 }
 
 static double relative(const struct report_row *row) {

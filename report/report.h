@@ -72,6 +72,8 @@ struct report_figure {
     const char *title, *caption, *alt; /* caption says what is seen and what is expected */
     const char *x_label;
     bool x_log;
+    size_t x_name_count; /* not 0: the axis has no scale, but x_name[i] at i */
+    const char *const *x_name;
     size_t panel_count; /* 1 to 3 */
     const struct report_panel *panel;
 };

@@ -1,10 +1,11 @@
 /* figure_default.c -- the figure that every case has.
  *
- * For each check that is judged at two points or more along a swept number:
+ * For each check that is judged at two points or more along a swept parameter:
  * measured values with their standard uncertainty and expected values over that
  * parameter, one colour for each setting of the others, and below the residual
- * measured - expected with the margin dashed.  All other checks share one
- * overview: residual in units of the margin, check by check.
+ * measured - expected with the margin dashed.  Numbers are preferred; labels and
+ * words stand side by side, what is expected as a short line at each.  All
+ * checks share one overview: residual in units of the margin, check by check.
  */
 #include "validation/figures.h"
 
@@ -29,17 +30,58 @@ static bool is_drawn(const struct figure_input *in, size_t row, const struct cas
     return in->row_check[row] == check && in->row_point[row] != NULL;
 }
 
-/* The first swept parameter that is a number at every point; NULL: none. */
-static const char *find_abscissa(const struct figure_input *in) {
-    const struct case_tier *t = in->data->plan->tier;
-    for (size_t i = 0; i < t->axis_count; i++) {
-        bool numbers = t->axis[i].list->count > 1;
-        for (size_t p = 0; p < in->data->point_count; p++)
-            numbers &= isfinite(measured_parameter(&in->data->point[p], t->axis[i].name));
-        if (numbers)
-            return t->axis[i].name;
+/* What a check is drawn along: a swept number, or one of words. */
+struct abscissa {
+    const struct case_axis *axis; /* NULL: none */
+    bool has_names;
+};
+
+/* Which of the axis' values a point has; the axis' count: none. */
+static size_t value_index(const struct case_axis *axis, const struct measured_point *p,
+                          struct arena *a) {
+    const struct yaml_node *value =
+        case_parameter_find(p->point->parameter, p->point->parameter_count, axis->name);
+    const char *text = value == NULL ? NULL : case_value_text(a, value);
+    for (size_t i = 0; text != NULL && i < axis->list->count; i++) {
+        const char *other = case_value_text(a, &axis->list->child[i]);
+        if (other != NULL && strcmp(text, other) == 0)
+            return i;
     }
-    return NULL;
+    return axis->list->count;
+}
+
+static double place_of(const struct abscissa *x, const struct measured_point *p, struct arena *a) {
+    return x->has_names ? (double)value_index(x->axis, p, a) : measured_parameter(p, x->axis->name);
+}
+
+/* Do the check's points have two places or more, and all of them one? */
+static bool tells_points_apart(const struct figure_input *in, const struct case_check *check,
+                               const struct abscissa *x, struct arena *a) {
+    double first = (double)NAN;
+    bool differ = false;
+    for (size_t i = 0; i < in->row_count; i++) {
+        if (!is_drawn(in, i, check))
+            continue;
+        double place = place_of(x, in->row_point[i], a);
+        if (!isfinite(place) || (x->has_names && place >= (double)x->axis->list->count))
+            return false;
+        differ |= isfinite(first) && place != first;
+        first = place;
+    }
+    return differ;
+}
+
+static struct abscissa find_abscissa(const struct figure_input *in, const struct case_check *check,
+                                     struct arena *a) {
+    const struct case_tier *t = in->data->plan->tier;
+    for (int names = 0; names < 2; names++) {
+        for (size_t i = 0; i < t->axis_count; i++) {
+            struct abscissa x = {&t->axis[i], names == 1};
+            if (tells_points_apart(in, check, &x, a))
+                return x;
+        }
+    }
+    return (struct abscissa){NULL, false};
 }
 
 static struct branch *find_branch(struct branch *list, size_t *count, const char *label) {
@@ -66,13 +108,13 @@ static bool make_room(struct branch *b, size_t rows, struct arena *a) {
 }
 
 static enum status collect(const struct figure_input *in, const struct case_check *check,
-                           const char *along, struct arena *a, struct branch *list, size_t *count,
-                           struct fault *fault) {
+                           const struct abscissa *along, struct arena *a, struct branch *list,
+                           size_t *count, struct fault *fault) {
     *count = 0;
     for (size_t i = 0; i < in->row_count; i++) {
         if (!is_drawn(in, i, check) || !isfinite(in->row[i].measured))
             continue;
-        const char *label = figure_point_text(in->data, in->row_point[i], along, a);
+        const char *label = figure_point_text(in->data, in->row_point[i], along->axis->name, a);
         if (label == NULL)
             return no_memory(fault);
         struct branch *b = find_branch(list, count, label);
@@ -82,7 +124,7 @@ static enum status collect(const struct figure_input *in, const struct case_chec
             return no_memory(fault);
         const struct report_row *r = &in->row[i];
         b->quantity = r->observable;
-        b->x[b->count] = measured_parameter(in->row_point[i], along);
+        b->x[b->count] = place_of(along, in->row_point[i], a);
         b->measured[b->count] = r->measured;
         b->expected[b->count] = r->expected;
         b->residual[b->count] = r->measured - r->expected;
@@ -98,17 +140,44 @@ static struct report_series series(const char *label, enum series_style style, i
     return (struct report_series){label, style, colour, b->count, b->x, y, error};
 }
 
+/* A line through values; over names a short one at each. */
+static struct report_series level(const char *label, int colour, const struct branch *b,
+                                  const double *y, bool has_names, struct arena *a) {
+    enum { PLACES = 3 };
+    static const double HALF = .2;
+    double *x = has_names ? arena_take(a, PLACES * b->count, sizeof *x) : NULL;
+    double *level = has_names ? arena_take(a, PLACES * b->count, sizeof *level) : NULL;
+    if (x == NULL || level == NULL)
+        return series(label, SERIES_DASHED, colour, b, y, NULL);
+    for (size_t i = 0; i < b->count; i++) {
+        for (size_t k = 0; k < PLACES; k++) {
+            x[PLACES * i + k] = b->x[i] + (k == 0 ? -HALF : HALF);
+            level[PLACES * i + k] = k + 1 < PLACES ? y[i] : (double)NAN;
+        }
+    }
+    return (struct report_series){label, SERIES_DASHED, colour, PLACES * b->count, x, level, NULL};
+}
+
+/* Settings stand side by side at each name, not on each other. */
+static void set_apart(struct branch *list, size_t count) {
+    static const double STEP = .07;
+    for (size_t k = 0; k < count; k++) {
+        for (size_t i = 0; i < list[k].count; i++)
+            list[k].x[i] += STEP * ((double)k - (double)(count - 1) / 2);
+    }
+}
+
 /* The margin on both sides of zero, or on the one that counts. */
-static size_t add_margins(const struct branch *b, enum comparison c, int colour, struct arena *a,
-                          struct report_series *out) {
+static size_t add_margins(const struct branch *b, enum comparison c, int colour, bool has_names,
+                          struct arena *a, struct report_series *out) {
     size_t count = 0;
     double *below = arena_take(a, b->count, sizeof *below);
     for (size_t i = 0; below != NULL && i < b->count; i++)
         below[i] = -b->tolerance[i];
     if (c != COMPARE_AT_LEAST)
-        out[count++] = series("", SERIES_DASHED, colour, b, b->tolerance, NULL);
+        out[count++] = level("", colour, b, b->tolerance, has_names, a);
     if (c != COMPARE_AT_MOST && below != NULL)
-        out[count++] = series("", SERIES_DASHED, colour, b, below, NULL);
+        out[count++] = level("", colour, b, below, has_names, a);
     return count;
 }
 
@@ -116,49 +185,73 @@ static const char *label_axis(const char *text, const char *unit, struct arena *
     return strcmp(unit, "1") == 0 ? text : arena_text(a, "%s (%s)", text, unit);
 }
 
-static enum status draw_check(const struct figure_input *in, const struct case_check *check,
-                              const char *along, size_t number, struct figure_output *out,
-                              struct fault *fault) {
-    struct branch list[COLOURS];
-    size_t count = 0, upper = 0, lower = 0;
-    enum status status = collect(in, check, along, out->arena, list, &count, fault);
-    struct report_panel *panel = arena_take(out->arena, 2, sizeof *panel);
-    struct report_series *top = arena_take(out->arena, 2 * COLOURS, sizeof *top);
-    struct report_series *rest = arena_take(out->arena, 3 * COLOURS, sizeof *rest);
-    if (status != STATUS_OK || count == 0)
-        return status;
-    if (panel == NULL || top == NULL || rest == NULL)
-        return no_memory(fault);
+/* x_name[0 .. axis count-1] of an axis of words; NULL: no memory. */
+static const char *const *names_of(const struct case_axis *axis, struct arena *a) {
+    const char **name = arena_take(a, axis->list->count, sizeof *name);
+    for (size_t i = 0; name != NULL && i < axis->list->count; i++) {
+        name[i] = case_value_text(a, &axis->list->child[i]);
+        if (name[i] == NULL)
+            return NULL;
+    }
+    return name;
+}
+
+static size_t draw_branches(const struct branch *list, size_t count, enum comparison comparison,
+                            bool has_names, struct arena *a, struct report_panel *panel) {
+    size_t upper = 0, lower = 0;
+    struct report_series *top = arena_take(a, 2 * COLOURS, sizeof *top);
+    struct report_series *rest = arena_take(a, 3 * COLOURS, sizeof *rest);
+    if (top == NULL || rest == NULL)
+        return 0;
     for (size_t i = 0; i < count; i++) {
         const struct branch *b = &list[i];
         const char *name = *b->label == '\0' ? "measured" : b->label;
         const char *expected =
-            *b->label == '\0' ? "expected" : arena_text(out->arena, "%s, expected", b->label);
+            *b->label == '\0' ? "expected" : arena_text(a, "%s, expected", b->label);
         top[upper++] = series(name, SERIES_POINTS, (int)i, b, b->measured, b->error);
-        top[upper++] = series(expected, SERIES_DASHED, (int)i, b, b->expected, NULL);
+        top[upper++] = level(expected, (int)i, b, b->expected, has_names, a);
         rest[lower++] = series("", SERIES_POINTS, (int)i, b, b->residual, b->error);
-        lower += add_margins(b, check->comparison, (int)i, out->arena, &rest[lower]);
+        lower += add_margins(b, comparison, (int)i, has_names, a, &rest[lower]);
     }
-    panel[0] =
-        (struct report_panel){.y_label = label_axis(list[0].quantity, check->unit, out->arena),
-                              .series_count = upper,
-                              .series = top};
+    panel[0] = (struct report_panel){.series_count = upper, .series = top};
     panel[1] = (struct report_panel){
         .y_label = "measured - expected", .series_count = lower, .series = rest};
+    return upper;
+}
+
+static enum status draw_check(const struct figure_input *in, const struct case_check *check,
+                              const struct abscissa *along, size_t number,
+                              struct figure_output *out, struct fault *fault) {
+    struct branch list[COLOURS];
+    size_t count = 0;
+    struct arena *a = out->arena;
+    const char *axis = along->axis->name;
+    enum status status = collect(in, check, along, a, list, &count, fault);
+    struct report_panel *panel = arena_take(a, 2, sizeof *panel);
+    if (status != STATUS_OK || count == 0)
+        return status;
+    if (along->has_names)
+        set_apart(list, count);
+    if (panel == NULL ||
+        draw_branches(list, count, check->comparison, along->has_names, a, panel) == 0)
+        return no_memory(fault);
+    panel[0].y_label = label_axis(list[0].quantity, check->unit, a);
     struct report_figure f = {
-        .name = arena_text(out->arena, "check-%zu", number),
+        .name = arena_text(a, "check-%zu", number),
         .title = check->name,
-        .caption = arena_text(out->arena,
+        .caption = arena_text(a,
                               "Points: measured, with standard uncertainty; dashed "
                               "above: expected; dashed below: the margin (%s).",
                               case_comparison_name(check->comparison)),
-        .alt = arena_text(out->arena, "%s measured and expected over %s, and their difference",
-                          check->observable, along),
-        .x_label = figure_axis_text(along, out->arena),
+        .alt = arena_text(a, "%s measured and expected over %s, and their difference",
+                          check->observable, axis),
+        .x_label = figure_axis_text(axis, a),
+        .x_name_count = along->has_names ? along->axis->list->count : 0,
+        .x_name = along->has_names ? names_of(along->axis, a) : NULL,
         .panel_count = 2,
         .panel = panel};
     if (f.name == NULL || f.caption == NULL || f.alt == NULL || f.x_label == NULL ||
-        panel[0].y_label == NULL)
+        panel[0].y_label == NULL || (along->has_names && f.x_name == NULL))
         return no_memory(fault);
     return figure_add(out, &f, fault);
 }
@@ -188,15 +281,15 @@ static enum status draw_overview(const struct figure_input *in, struct figure_ou
     if (b.count == 0)
         return STATUS_OK;
     s[0] = series("(measured - expected)/margin", SERIES_POINTS, 0, &b, b.residual, b.error);
-    size_t count = 1 + add_margins(&b, COMPARE_WITHIN, -1, out->arena, &s[1]);
+    size_t count = 1 + add_margins(&b, COMPARE_WITHIN, -1, false, out->arena, &s[1]);
     *panel = (struct report_panel){
         .y_label = "(measured - expected)/margin", .series_count = count, .series = s};
     struct report_figure f = {
         .name = "overview",
         .title = "All checks, in units of their margin",
-        .caption = "One point a row of the table, in its order. `within` passes between the dashed "
-                   "lines, `outside` beyond them, `at most` below the upper and `at least` above "
-                   "the lower one.",
+        .caption = "One point a row of the table, in its order. What must lie within its margin "
+                   "passes between the dashed lines, what must lie outside beyond them, what has "
+                   "an upper limit below the upper line, a lower limit above the lower one.",
         .alt = "Residual of every check divided by its margin",
         .x_label = "row of the table",
         .panel_count = 1,
@@ -207,14 +300,11 @@ static enum status draw_overview(const struct figure_input *in, struct figure_ou
 enum status figure_default_build(const struct figure_input *in, struct figure_output *out,
                                  struct fault *fault) {
     const struct case_tier *t = in->data->plan->tier;
-    const char *along = find_abscissa(in);
     enum status status = draw_overview(in, out, fault);
-    for (size_t i = 0; status == STATUS_OK && along != NULL && i < t->check_count; i++) {
-        size_t points = 0;
-        for (size_t k = 0; k < in->row_count; k++)
-            points += is_drawn(in, k, &t->check[i]);
-        if (points > 1 && out->figure_count < FIGURES_MAX)
-            status = draw_check(in, &t->check[i], along, i + 1, out, fault);
+    for (size_t i = 0; status == STATUS_OK && i < t->check_count; i++) {
+        struct abscissa along = find_abscissa(in, &t->check[i], out->arena);
+        if (along.axis != NULL && out->figure_count < FIGURES_MAX)
+            status = draw_check(in, &t->check[i], &along, i + 1, out, fault);
     }
     return status;
 }

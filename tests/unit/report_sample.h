@@ -99,6 +99,8 @@ static inline void sample_drawings(struct sample *s) {
                                               "Alternative text.",
                                               "height (l)",
                                               false,
+                                              0,
+                                              NULL,
                                               2,
                                               s->panel};
     s->picture = (struct report_picture){

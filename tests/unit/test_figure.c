@@ -143,10 +143,32 @@ START_TEST(a_gnuplot_that_fails_is_quoted) {
 }
 END_TEST
 
+START_TEST(names_stand_on_the_axis_once_and_long_ones_are_cut) {
+    static const char *const name[] = {"as it is", "no guard's <here>",
+                                       "0.35 to 0.30, and more words"};
+    struct sample s;
+    struct sheet svg;
+    sample_fill(&s);
+    s.figure[0].x_name = name;
+    s.figure[0].x_name_count = 3;
+    for (int i = 0; i < 4; i++)
+        s.x[i] = i % 3;
+    draw(&s.figure[0], "f-", &svg);
+    ck_assert_uint_eq(occurrences(svg.text, ">as it is<"), 1);
+    ck_assert_uint_eq(occurrences(svg.text, "no guard&#39;s &lt;here&gt;") +
+                          occurrences(svg.text, "no guard's &lt;here>"),
+                      1);
+    ck_assert_uint_eq(occurrences(svg.text, "0.35 to 0.30, and more…"), 1);
+    ck_assert_uint_eq(occurrences(svg.text, "rotate(-27)"), 3);
+    sheet_free(&svg);
+}
+END_TEST
+
 int main(void) {
     const TTest *const tests[] = {labels_are_shown_and_not_executed,
                                   control_characters_are_refused_with_the_figure_named,
                                   every_id_begins_with_the_prefix,
+                                  names_stand_on_the_axis_once_and_long_ones_are_cut,
                                   a_measured_point_outside_of_given_limits_is_drawn,
                                   what_cannot_be_drawn_leaves_a_legible_figure,
                                   the_same_figure_has_the_same_bytes,
