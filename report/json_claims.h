@@ -1,4 +1,4 @@
-/* json_claims.h -- members of results.json beside its rows. */
+/* json_claims.h -- the papers' claims in results.json; only json_report.c includes this. */
 #ifndef REPORT_JSON_CLAIMS_H
 #define REPORT_JSON_CLAIMS_H
 
@@ -8,10 +8,5 @@
 
 /* The member "claims": an empty array where the report has no ledger. */
 void json_claims(struct json *j, const struct report *r);
-
-/* The members "limits" (what no check can see), "unselected" (cases that nobody asked for) and
- * "agreement" (bias and scatter of all checks; null where there is none). */
-void json_limits(struct json *j, const struct report *r);
-void json_agreement(struct json *j, const struct report *r);
 
 #endif

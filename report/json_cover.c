@@ -1,5 +1,5 @@
 /* json_cover.c -- what a run of the suite does not see, and how well all of it agrees. */
-#include "report/json_claims.h"
+#include "report/json_cover.h"
 
 static void put_text(struct json *j, const char *key, const char *text) {
     json_key(j, key);
@@ -16,7 +16,7 @@ static void put_count(struct json *j, const char *key, size_t count) {
     json_integer(j, (long long)count);
 }
 
-void json_limits(struct json *j, const struct report *r) {
+void json_cover_limits(struct json *j, const struct report *r) {
     json_key(j, "limits");
     json_begin_array(j);
     for (size_t i = 0; i < r->limit_count; i++) {
@@ -54,7 +54,7 @@ static void put_group(struct json *j, const struct report_group *g) {
     json_end_object(j);
 }
 
-void json_agreement(struct json *j, const struct report *r) {
+void json_cover_agreement(struct json *j, const struct report *r) {
     const struct report_agreement *a = r->agreement;
     json_key(j, "agreement");
     if (!a || a->group_count == 0) {

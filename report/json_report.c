@@ -18,6 +18,7 @@
  * Strict JSON: a number that is none is null, and `reason` then says why.
  */
 #include "report/json_claims.h"
+#include "report/json_cover.h"
 #include "report/report.h"
 #include "report/sheet.h"
 
@@ -169,10 +170,10 @@ static void put_report(struct json *j, const struct report *r) {
             put_row(j, &r->cases[i].row[k]);
     }
     json_end_array(j);
-    json_agreement(j, r);
+    json_cover_agreement(j, r);
     json_claims(j, r);
     put_skipped(j, r);
-    json_limits(j, r);
+    json_cover_limits(j, r);
     json_key(j, "provenance");
     json_begin_object(j);
     for (size_t i = 0; i < r->fact_count; i++)

@@ -145,12 +145,12 @@ END_TEST
 
 START_TEST(names_stand_on_the_axis_once_and_long_ones_are_cut) {
     static const char *const name[] = {"as it is", "no guard's <here>",
-                                       "0.35 to 0.30, and more words"};
+                                       "0.35 to 0.30, and more words", "b"};
     struct sample s;
     struct sheet svg;
     sample_fill(&s);
     s.figure[0].x_name = name;
-    s.figure[0].x_name_count = 3;
+    s.figure[0].x_name_count = 4;
     for (int i = 0; i < 4; i++)
         s.x[i] = i % 3;
     draw(&s.figure[0], "f-", &svg);
@@ -159,7 +159,8 @@ START_TEST(names_stand_on_the_axis_once_and_long_ones_are_cut) {
                           occurrences(svg.text, "no guard's &lt;here>"),
                       1);
     ck_assert_uint_eq(occurrences(svg.text, "0.35 to 0.30, and more…"), 1);
-    ck_assert_uint_eq(occurrences(svg.text, "rotate(-27)"), 3);
+    ck_assert_uint_eq(occurrences(svg.text, "rotate(-27)"),
+                      8); /* in both panels, above without words */
     sheet_free(&svg);
 }
 END_TEST
