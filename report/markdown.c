@@ -196,6 +196,28 @@ static void put_claims(FILE *out, const struct report *r) {
     }
 }
 
+/* Bias and scatter by model, and what no check can see. */
+static void put_cover(FILE *out, const struct report *r) {
+    if (r->agreement) {
+        for (size_t i = 0; i < r->agreement->group_count; i++) {
+            const struct report_group *g = &r->agreement->group[i];
+            fprintf(out, "%s", i == 0 ? "\nMeasured over expected: " : "; ");
+            escape_markdown(out, g->name);
+            fprintf(out, " bias %s", words_number(g->bias).text);
+            if (isfinite(g->bias_low))
+                fprintf(out, " (95 %%: %s to %s)", words_number(g->bias_low).text,
+                        words_number(g->bias_high).text);
+            fprintf(out, ", scatter %s over %zu rows", words_number(g->scatter).text, g->rows);
+        }
+        fprintf(out, "%s", r->agreement->group_count > 0 ? ".\n" : "");
+    }
+    for (size_t i = 0; i < r->limit_count; i++) {
+        fprintf(out, "%s", i == 0 ? "\nNo check here can see: " : "; ");
+        escape_markdown(out, r->limit[i].what);
+    }
+    fprintf(out, "%s", r->limit_count > 0 ? ".\n" : "");
+}
+
 static void put_facts(FILE *out, const struct report *r) {
     fprintf(out, "\n## Where it comes from\n\n");
     put_item(out, "started", r->started);
@@ -218,6 +240,7 @@ enum status report_write_markdown(const struct report *r, const char *path, stru
         return status;
     put_head(sheet.out, r);
     put_claims(sheet.out, r);
+    put_cover(sheet.out, r);
     put_facts(sheet.out, r);
     if (n.fail + n.inconclusive + n.known > 0) {
         fprintf(sheet.out, "\n## Failed, undecided, or known to disagree\n");

@@ -96,8 +96,32 @@ START_TEST(a_known_disagreement_has_a_count_and_a_sign_of_its_own) {
 }
 END_TEST
 
+START_TEST(limits_and_agreement_are_told_in_short) {
+    struct sample s;
+    sample_fill(&s);
+    const struct report_limit limit[] = {{"suspension", "<wakes>", "no flow"},
+                                         {"any", "experiments", "none enters"}};
+    const struct report_group group[] = {
+        {"graingas", 7, 3, .973, .9612, .9851, .0371, .021, .0613, .0119},
+        {"suspension", 2, 1, 1.0213, (double)NAN, (double)NAN, .0113, (double)NAN, (double)NAN, 0}};
+    const struct report_agreement agreement = {.group_count = 2, .group = group};
+    s.report.limit = limit;
+    s.report.limit_count = 2;
+    s.report.agreement = &agreement;
+    size_t length;
+    char *text = written(&s.report, &length);
+    ck_assert_ptr_nonnull(strstr(
+        text,
+        "Measured over expected: graingas bias 0.973 (95 %: 0.9612 to 0.9851), scatter 0.0371 "
+        "over 7 rows; suspension bias 1.021, scatter 0.0113 over 2 rows.\n"));
+    ck_assert_ptr_nonnull(strstr(text, "No check here can see: &lt;wakes&gt;; experiments.\n"));
+    free(text);
+}
+END_TEST
+
 int main(void) {
-    const TTest *const tests[] = {a_known_disagreement_has_a_count_and_a_sign_of_its_own,
+    const TTest *const tests[] = {limits_and_agreement_are_told_in_short,
+                                  a_known_disagreement_has_a_count_and_a_sign_of_its_own,
                                   the_verdict_comes_first_and_failures_in_full,
                                   a_name_with_markup_stays_in_its_cell,
                                   thousands_of_rows_stay_below_a_megabyte_and_are_counted,
