@@ -82,7 +82,8 @@ enum status draw_sequence_small(const struct report_sequence *s, struct sheet *s
 /* The middle frame as such a picture with a sign to start playing, an SVG file. */
 enum status draw_poster(const struct report_sequence *s, struct sheet *svg, struct fault *fault);
 
-/* A page that plays the frames, needing nothing else: about 5.4 bytes a grain and frame. */
+/* A page that plays the frames, needing nothing else, below 2 MB: frames are left out if need be
+ * (animation.h). */
 enum status draw_animation(const struct report_sequence *s, struct sheet *page,
                            struct fault *fault);
 
