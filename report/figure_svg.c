@@ -18,7 +18,7 @@ enum status draw_embed_svg(const char *file, const struct report_figure *f, cons
     fprintf(svg->out,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" "
             "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"%.*s\" role=\"img\" "
-            "style=\"font-family:sans-serif\" "
+            "style=\"" SHRINK_STYLE "\" "
             "aria-describedby=\"%sdesc\">\n<title>",
             (int)box_length, box, prefix);
     escape_markup(svg->out, f->title);

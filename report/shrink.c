@@ -235,9 +235,12 @@ static void put_colour(FILE *out, struct span value) {
         fwrite(value.at, 1, value.length, out);
 }
 
-/* What is the default anyway, what the page's style sets, and names that nothing refers to. */
-static bool is_dropped(const struct shrinker *w, struct attribute a) {
-    return (is_word(a.name, "stroke-linecap") && is_word(a.value, "butt")) ||
+/* What is the default anyway, what SHRINK_STYLE sets, and names that nothing refers to. */
+static bool is_dropped(const struct shrinker *w, bool in_group, struct attribute a) {
+    bool is_whole = in_group && ((is_word(a.name, "fill") && is_word(a.value, "none")) ||
+                                 (is_word(a.name, "color") && is_word(a.value, "black")) ||
+                                 (is_word(a.name, "stroke-width") && is_word(a.value, "1.00")));
+    return is_whole || (is_word(a.name, "stroke-linecap") && is_word(a.value, "butt")) ||
            (is_word(a.name, "stroke-linejoin") && is_word(a.value, "miter")) ||
            is_word(a.name, "class") ||
            (is_word(a.name, "font-family") && is_word(a.value, "sans-serif")) ||
@@ -265,10 +268,11 @@ static void put_value(struct shrinker *w, struct attribute a) {
 }
 
 static void put_tag(struct shrinker *w, const struct tag *t) {
+    bool is_group = is_word(t->name, "g");
     fprintf(w->out, "<%.*s", (int)t->name.length, t->name.at);
     for (size_t i = 0; i < t->count; i++) {
         const struct attribute *a = &t->attribute[i];
-        if (is_dropped(w, *a))
+        if (is_dropped(w, is_group, *a))
             continue;
         char quote = memchr(a->value.at, '\'', a->value.length) ? '"' : '\'';
         fprintf(w->out, " %.*s=%c", (int)a->name.length, a->name.at, quote);

@@ -46,7 +46,7 @@ START_TEST(empty_groups_and_defaults_go) {
         shrink("<g >\n<g stroke-linecap=\"butt\" stroke=\"rgb(  0, 114, 178)\">\n</g>\n"
                "<g color=\"black\" stroke-width=\"1.00\"><title>plot_1</title>"
                "<rect id='x' class=\"c\" width=\"3\"/></g></g>"),
-        "<g><g color='black' stroke-width='1'><rect width='3'/></g>\n</g>\n");
+        "<g><g><rect width='3'/></g>\n</g>\n");
 }
 END_TEST
 
