@@ -182,6 +182,9 @@ static void read_start(struct case_reader *r, const struct yaml_node *n, struct 
     }
 }
 
+/* Of wall clock, where the case says none: a busy machine may stop a run of a second for as long. */
+static const double LEAST_LIMIT_S = 60;
+
 static void read_limits(struct case_reader *r, const struct yaml_node *over, struct case_tier *t) {
     struct fault ignored = FAULT_NONE; /* the schema has told it */
     const struct yaml_node *expect = get(r, over, "expect_s"), *limit = get(r, over, "limit_s");
@@ -189,7 +192,7 @@ static void read_limits(struct case_reader *r, const struct yaml_node *over, str
         yaml_real(expect, &t->expect_s, &ignored);
     if (yaml_get(over, "expect_s") != NULL)
         limit = yaml_get(over, "limit_s"); /* the case's limit was for its own expectation */
-    t->limit_s = 10 * t->expect_s;
+    t->limit_s = fmax(10 * t->expect_s, LEAST_LIMIT_S);
     if (limit != NULL)
         yaml_real(limit, &t->limit_s, &ignored);
     if (t->limit_s < t->expect_s)

@@ -75,7 +75,7 @@ START_TEST(a_good_case_is_read_with_its_tiers) {
     ck_assert_uint_eq(smoke->samples.count, 4);
     ck_assert_double_eq(smoke->samples.time[3], 0.3); /* not 0.30000000000000004 */
     ck_assert_uint_eq(smoke->particle_samples.count, 2);
-    ck_assert_double_eq(smoke->limit_s, 20);
+    ck_assert_double_eq(smoke->limit_s, 60); /* not 10 expect_s: a minute at least */
     ck_assert_uint_eq(smoke->check_count, 3);
     ck_assert_double_eq(c->observable[1].setting[0], 5);
     ck_assert(smoke->check[0].margin.percent);
