@@ -154,6 +154,19 @@ static bool is_first(const struct report_fact *f) {
     return false;
 }
 
+/* Whether a build was of its commit, in words. */
+static void put_named(struct page *p, const struct report_fact *f) {
+    size_t length = strlen(f->name), n = strlen("dirty");
+    if (length < n || strcmp(f->name + length - n, "dirty") != 0) {
+        put_fact(p, f->name, f->value);
+        return;
+    }
+    char name[80];
+    snprintf(name, sizeof name, "%.*ssource tree", (int)(length - n), f->name);
+    put_fact(p, name,
+             f->value && strcmp(f->value, "dirty") == 0 ? "changed since that commit" : f->value);
+}
+
 static void put_facts(struct page *p, bool first) {
     const struct report *r = p->report;
     fprintf(p->out, "<ul class=\"facts\">\n");
@@ -161,7 +174,7 @@ static void put_facts(struct page *p, bool first) {
     put_fact(p, first ? "solver" : "solver key", first ? r->solver : r->solver_key);
     for (size_t i = 0; i < r->fact_count; i++) {
         if (is_first(&r->fact[i]) == first)
-            put_fact(p, r->fact[i].name, r->fact[i].value);
+            put_named(p, &r->fact[i]);
     }
     fprintf(p->out, "</ul>\n");
 }

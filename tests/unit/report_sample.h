@@ -13,7 +13,7 @@ struct sample {
     struct report report;
     struct report_case cases[3];
     struct report_row first[3], second[2];
-    struct report_fact fact[1];
+    struct report_fact fact[2];
     struct report_figure figure[2];
     struct report_panel panel[2];
     struct report_series series[2];
@@ -166,6 +166,7 @@ static inline void sample_fill(struct sample *s) {
                                        .skipped = true,
                                        .skip_reason = "no time | today"};
     s->fact[0] = (struct report_fact){"commit", "0123abcd " SAMPLE_HOSTILE};
+    s->fact[1] = (struct report_fact){"solver: dirty", "dirty"};
     s->report = (struct report){.suite = "bedcheck 0.1.0",
                                 .tier = "smoke",
                                 .solver = "build/bin/bedsim",
@@ -173,7 +174,7 @@ static inline void sample_fill(struct sample *s) {
                                 .started = "2026-11-22T01:30:00Z",
                                 .case_count = 3,
                                 .cases = s->cases,
-                                .fact_count = 1,
+                                .fact_count = 2,
                                 .fact = s->fact};
 }
 

@@ -107,6 +107,7 @@ START_TEST(the_first_screen_answers) {
     has(text, "No check here compares with a stored reference.");
     has(text, "<code>graingas/fluidization</code>: no time | today");
     has(text, "0123abcd");
+    has(text, "solver: source tree</b> changed since that commit");
     has(text, "2026-11-22T01:30:00Z");
     free(text);
     unit_remove(folder);
