@@ -113,6 +113,22 @@ static void put_claim(struct page *p, const struct report_claim *c) {
     fprintf(p->out, "</td></tr>\n");
 }
 
+/* The claims with (or without) a verdict from this run. */
+static void put_table(struct page *p, const struct report_ledger *l, const char *label,
+                      bool untested) {
+    html_text(p, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"", label,
+              "\">\n");
+    fprintf(p->out, "<table class=\"ledger\">\n<thead><tr>"
+                    "<th scope=\"col\">Verdict</th><th scope=\"col\">Claim</th>"
+                    "<th scope=\"col\">Decided by, and measured</th>"
+                    "<th scope=\"col\">Why, and what follows</th></tr></thead>\n<tbody>\n");
+    for (size_t i = 0; i < l->count; i++) {
+        if ((l->claim[i].verdict == CLAIM_NOT_TESTED) == untested)
+            put_claim(p, &l->claim[i]);
+    }
+    fprintf(p->out, "</tbody></table></div>\n");
+}
+
 void html_ledger(struct page *p) {
     const struct report_ledger *l = p->report->ledger;
     if (l == NULL || l->count == 0)
@@ -121,12 +137,15 @@ void html_ledger(struct page *p) {
                     "<p>Verdicts are made from the rows below. None of them decides whether this "
                     "report passes; one that changes from a stored one does.</p>\n");
     put_counts(p, l);
-    fprintf(p->out, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" "
-                    "aria-label=\"Claims of the papers\">\n<table class=\"ledger\">\n<thead><tr>"
-                    "<th scope=\"col\">Verdict</th><th scope=\"col\">Claim</th>"
-                    "<th scope=\"col\">Decided by, and measured</th>"
-                    "<th scope=\"col\">Why, and what follows</th></tr></thead>\n<tbody>\n");
-    for (size_t i = 0; i < l->count; i++)
-        put_claim(p, &l->claim[i]);
-    fprintf(p->out, "</tbody></table></div>\n</section>\n");
+    size_t count[CLAIM_VERDICTS];
+    claim_tally(l, count);
+    if (count[CLAIM_NOT_TESTED] < l->count)
+        put_table(p, l, "Claims of the papers", false);
+    if (count[CLAIM_NOT_TESTED] > 0) {
+        fprintf(p->out, "<details><summary>%zu claim%s that this run does not test</summary>\n",
+                count[CLAIM_NOT_TESTED], count[CLAIM_NOT_TESTED] == 1 ? "" : "s");
+        put_table(p, l, "Claims that this run does not test", true);
+        fprintf(p->out, "</details>\n");
+    }
+    fprintf(p->out, "</section>\n");
 }

@@ -92,6 +92,21 @@ START_TEST(the_page_shows_verdicts_and_what_was_measured) {
 }
 END_TEST
 
+START_TEST(claims_without_a_verdict_are_folded_behind_the_others) {
+    struct stage g;
+    set_up(&g);
+    g.claim[0].verdict = CLAIM_NOT_TESTED;
+    const char *folder = unit_folder();
+    char *text = written(report_write_html, &g.s.report, folder, unit_path(folder, "index.html"));
+    const char *fold = strstr(text, "<summary>1 claim that this run does not test</summary>");
+    ck_assert_ptr_nonnull(fold);
+    has(fold, "<tr id=\"claim-a-1\">");
+    ck_assert_ptr_null(strstr(fold, "wrong in the paper</span>"));
+    free(text);
+    unit_remove(folder);
+}
+END_TEST
+
 START_TEST(the_summary_counts_and_tells_a_change) {
     struct stage g;
     set_up(&g);
@@ -139,7 +154,10 @@ END_TEST
 
 int main(void) {
     const TTest *const tests[] = {the_page_shows_verdicts_and_what_was_measured,
-                                  the_summary_counts_and_tells_a_change, results_have_every_claim,
-                                  names_of_verdicts_are_read_again, NULL};
+                                  claims_without_a_verdict_are_folded_behind_the_others,
+                                  the_summary_counts_and_tells_a_change,
+                                  results_have_every_claim,
+                                  names_of_verdicts_are_read_again,
+                                  NULL};
     return unit_run("ledger", tests);
 }
