@@ -14,8 +14,9 @@ enum {
     WIDTH = 900, /* all of these in px of the drawing */
     MARGIN = 14,
     GAP = 22,
-    HEAD = 26, /* the time, above its panel */
-    FOOT = 44, /* the key, below all panels */
+    LABEL = 80, /* of a time above its box */
+    HEAD = 26,  /* the time, above its panel */
+    FOOT = 44,  /* the key, below all panels */
     TALLEST = 640,
     POSTER = 420,
     FONT = 16,
@@ -45,8 +46,8 @@ static const char INK[] = "#222222";
 
 struct layout {
     size_t columns, rows;
-    double scale;                           /* px per l */
-    double panel_width, panel_height, left; /* px */
+    double scale;                                /* px per l */
+    double panel_width, panel_height, gap, left; /* px */
     double width, height;
 };
 
@@ -86,7 +87,9 @@ static struct layout lay_out(const struct report_sequence *s) {
     l.scale = scale_of(s, l.columns);
     l.panel_width = l.scale * s->width;
     l.panel_height = l.scale * s->height;
-    l.left = (WIDTH - (double)l.columns * l.panel_width - GAP * ((double)l.columns - 1)) / 2;
+    double spare = (WIDTH - 2 * MARGIN - (double)l.columns * l.panel_width) / (double)l.columns;
+    l.gap = fmax(GAP, fmin(spare, LABEL - l.panel_width)); /* a time is wider than a narrow box */
+    l.left = (WIDTH - (double)l.columns * l.panel_width - l.gap * ((double)l.columns - 1)) / 2;
     l.height = MARGIN + (double)l.rows * (HEAD + l.panel_height + GAP) + FOOT;
     return l;
 }
@@ -344,7 +347,7 @@ static enum status draw(const struct report_sequence *s, double pixels, struct s
     struct layout l = lay_out(s);
     put_head(p.out, s, l.width, l.height);
     for (size_t f = 0; f < s->frame_count && !status; f++) {
-        double left = l.left + (double)(f % l.columns) * (l.panel_width + GAP);
+        double left = l.left + (double)(f % l.columns) * (l.panel_width + l.gap);
         double top = MARGIN + HEAD + (double)(f / l.columns) * (HEAD + l.panel_height + GAP);
         put_time(p.out, s, s->frame[f].time, left, top - 8);
         status = put_panel(&p, f, left, top, l.scale, fault);
