@@ -182,7 +182,7 @@ static void read_start(struct case_reader *r, const struct yaml_node *n, struct 
     }
 }
 
-/* Of wall clock, where the case says none: a busy machine may stop a run of a second for as long. */
+/* Of wall clock, where the case says none: a busy machine may stop a run for long. */
 static const double LEAST_LIMIT_S = 60;
 
 static void read_limits(struct case_reader *r, const struct yaml_node *over, struct case_tier *t) {
