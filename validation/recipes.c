@@ -13,6 +13,7 @@ static const struct recipe *const RECIPES[] = {
     &recipe_column,
     &recipe_gas_invariant,
     &recipe_halo,
+    &recipe_halo_shape,
     &recipe_uniform_fraction,
     &recipe_gas_work,
     &recipe_acceleration,

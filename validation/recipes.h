@@ -12,6 +12,7 @@ extern const struct recipe recipe_mode_decay;          /* observe_mode.c */
 extern const struct recipe recipe_column;              /* observe_column.c */
 extern const struct recipe recipe_gas_invariant;       /* observe_invariant.c */
 extern const struct recipe recipe_halo;                /* observe_halo.c */
+extern const struct recipe recipe_halo_shape;          /* observe_halo_shape.c */
 extern const struct recipe recipe_uniform_fraction;    /* observe_halo.c */
 extern const struct recipe recipe_gas_work;            /* observe_work.c */
 extern const struct recipe recipe_acceleration;        /* observe_flight.c */

@@ -260,12 +260,44 @@ START_TEST(gas_that_only_moves_keeps_its_sum_and_a_leak_does_not) {
 }
 END_TEST
 
+/* One grain .37 l above the bottom passes site (2, 0), whose cell is half a site's; its weight is
+ * wrong by `lost` once it is in the halo. */
+static struct fake_run write_passage(double lost) {
+    const double radius = 0.23, y = 0.37;
+    struct fake_run f = fake_start("  width_l: 5\n  height_l: 7\n");
+    fake_array(&f, "particles/grains/radius", &radius, 1);
+    for (int k = 0; k < 27; k++) {
+        double x = 0.613 + 0.1 * k, rho[SITES] = {0};
+        double weight = fmax(0, 1 - fabs(x - 2)) * (1 - y);
+        rho[2] = (weight - (k == 11 ? lost : 0)) * M_PI * radius * radius * 2 / 3 / 0.5;
+        fake_vectors(&f, "particles/grains/position", 1, (const double[]){x, y}, 0.1 * k, DT);
+        fake_field(&f, "fields/solid_fraction", NX, NY, rho, 0.1 * k, DT);
+    }
+    return f;
+}
+
+START_TEST(a_passing_grain_draws_its_halo) {
+    struct measurement m;
+    struct fake_run f = write_passage(0);
+    unit_ok(fake_measure(&f, "halo-shape", "site_x", 2, &m), &f.fault);
+    ck_assert_double_lt(fake_value(&m, "halo-shape", "error"), 1e-14);
+    ck_assert_double_eq_tol(fake_value(&m, "halo-shape", "largest"), 0.987 * 0.63, 1e-12);
+    ck_assert_double_eq(fake_value(&m, "halo-shape", "inside"), 20);
+    f = write_passage(1e-9);
+    unit_ok(fake_measure(&f, "halo-shape", "site_x", 2, &m), &f.fault);
+    ck_assert_double_eq_tol(fake_value(&m, "halo-shape", "error"), 1e-9, 1e-14);
+    f = write_passage(0);
+    ck_assert_int_eq(fake_measure(&f, "halo-shape", "site_x", 6, &m), STATUS_BAD_INPUT);
+}
+END_TEST
+
 int main(void) {
     const TTest *const tests[] = {a_mode_that_decays_as_the_lattice_does_has_no_lattice_error,
                                   a_wrong_rate_and_another_mode_are_seen,
                                   a_layered_column_is_a_series_of_faces,
                                   a_full_column_has_a_linear_square,
                                   a_right_deposit_is_found_right_and_a_lost_share_is_not,
+                                  a_passing_grain_draws_its_halo,
                                   what_the_gas_loses_the_grains_receive,
                                   gas_that_only_moves_keeps_its_sum_and_a_leak_does_not,
                                   NULL};
