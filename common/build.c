@@ -88,32 +88,27 @@ static void library(char *out, size_t size) {
     snprintf(out, size, "glibc %s %.8s", gnu_get_libc_version(), d.hex);
 }
 
-static void member(struct json *j, const char *key, const char *value) {
-    json_key(j, key);
-    json_text(j, value);
-}
-
 void build_describe(struct json *j) {
     char text[256];
-    member(j, "version", build_version());
-    member(j, "commit", build_commit());
-    member(j, "dirty", build_dirty());
-    member(j, "compiler", build_compiler());
-    member(j, "flags", build_flags());
-    member(j, "gsl", gsl_version);
+    json_put_text(j, "version", build_version());
+    json_put_text(j, "commit", build_commit());
+    json_put_text(j, "dirty", build_dirty());
+    json_put_text(j, "compiler", build_compiler());
+    json_put_text(j, "flags", build_flags());
+    json_put_text(j, "gsl", gsl_version);
     unsigned major = 0, minor = 0, release = 0;
     H5get_libversion(&major, &minor, &release);
     snprintf(text, sizeof text, "%u.%u.%u", major, minor, release);
-    member(j, "hdf5", text);
-    member(j, "libyaml", yaml_get_version_string());
+    json_put_text(j, "hdf5", text);
+    json_put_text(j, "libyaml", yaml_get_version_string());
     struct utsname machine;
-    member(j, "machine", uname(&machine) == 0 ? machine.machine : "unknown");
+    json_put_text(j, "machine", uname(&machine) == 0 ? machine.machine : "unknown");
     library(text, sizeof text);
-    member(j, "libc", text);
+    json_put_text(j, "libc", text);
     cpu_model(text, sizeof text);
-    member(j, "cpu", text);
+    json_put_text(j, "cpu", text);
     if (gethostname(text, sizeof text) != 0)
         snprintf(text, sizeof text, "unknown");
     text[sizeof text - 1] = '\0';
-    member(j, "host", text);
+    json_put_text(j, "host", text);
 }

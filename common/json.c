@@ -132,3 +132,18 @@ void json_boolean(struct json *j, bool value) {
     next_item(j);
     fputs(value ? "true" : "false", j->out);
 }
+
+void json_put_text(struct json *j, const char *key, const char *text) {
+    json_key(j, key);
+    json_text(j, text);
+}
+
+void json_put_real(struct json *j, const char *key, double value) {
+    json_key(j, key);
+    json_real(j, value);
+}
+
+void json_put_count(struct json *j, const char *key, size_t count) {
+    json_key(j, key);
+    json_integer(j, (long long)count);
+}

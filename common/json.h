@@ -28,4 +28,9 @@ void json_real(struct json *j, double value);
 void json_integer(struct json *j, long long value);
 void json_boolean(struct json *j, bool value);
 
+/* A member of an object: its key and its value. */
+void json_put_text(struct json *j, const char *key, const char *text);
+void json_put_real(struct json *j, const char *key, double value);
+void json_put_count(struct json *j, const char *key, size_t count);
+
 #endif

@@ -9,23 +9,18 @@
 
 #include "report/ledger.h"
 
-static void put_text(struct json *j, const char *key, const char *text) {
-    json_key(j, key);
-    json_text(j, text);
-}
-
 static void put_test(struct json *j, const struct report_claim_test *t) {
     static const char *const result[] = {[CLAIM_AS_SAID] = "as said",
                                          [CLAIM_CONTRARY] = "contrary",
                                          [CLAIM_OPEN] = "inconclusive",
                                          [CLAIM_MISSING] = "missing"};
     json_begin_object(j);
-    put_text(j, "case", t->case_name);
-    put_text(j, "check", t->check);
-    put_text(j, "points", t->points);
-    put_text(j, "wants", t->wants_pass ? "pass" : "fail");
-    put_text(j, "result", result[t->result]);
-    put_text(j, "missing", t->missing);
+    json_put_text(j, "case", t->case_name);
+    json_put_text(j, "check", t->check);
+    json_put_text(j, "points", t->points);
+    json_put_text(j, "wants", t->wants_pass ? "pass" : "fail");
+    json_put_text(j, "result", result[t->result]);
+    json_put_text(j, "missing", t->missing);
     json_key(j, "measured");
     json_begin_array(j);
     for (size_t i = 0; i < t->row_count; i++)
@@ -36,16 +31,16 @@ static void put_test(struct json *j, const struct report_claim_test *t) {
 
 static void put_claim(struct json *j, const struct report_claim *c) {
     json_begin_object(j);
-    put_text(j, "id", c->id);
-    put_text(j, "paper", c->paper);
-    put_text(j, "where", c->where);
-    put_text(j, "says", c->says);
-    put_text(j, "reading", c->reading);
-    put_text(j, "verdict", claim_verdict_name(c->verdict));
-    put_text(j, "reason", c->reason);
-    put_text(j, "stored", c->stored);
-    put_text(j, "because", c->because);
-    put_text(j, "proof", c->proof);
+    json_put_text(j, "id", c->id);
+    json_put_text(j, "paper", c->paper);
+    json_put_text(j, "where", c->where);
+    json_put_text(j, "says", c->says);
+    json_put_text(j, "reading", c->reading);
+    json_put_text(j, "verdict", claim_verdict_name(c->verdict));
+    json_put_text(j, "reason", c->reason);
+    json_put_text(j, "stored", c->stored);
+    json_put_text(j, "because", c->because);
+    json_put_text(j, "proof", c->proof);
     json_key(j, "tests");
     json_begin_array(j);
     for (size_t i = 0; i < c->test_count; i++)

@@ -26,21 +26,6 @@
 
 #include <math.h>
 
-static void put_text(struct json *j, const char *key, const char *text) {
-    json_key(j, key);
-    json_text(j, text);
-}
-
-static void put_real(struct json *j, const char *key, double value) {
-    json_key(j, key);
-    json_real(j, value);
-}
-
-static void put_count(struct json *j, const char *key, size_t count) {
-    json_key(j, key);
-    json_integer(j, (long long)count);
-}
-
 /* A null must not stand there unexplained, whatever the judge has said. */
 static const char *reason_of(const struct report_row *row) {
     if (row->reason && *row->reason)
@@ -66,34 +51,34 @@ static void put_values(struct json *j, const struct report_row *row) {
     for (size_t i = 0; i < row->value_count; i++)
         json_integer(j, row->seeds[i]);
     json_end_array(j);
-    put_real(j, "freedom", row->freedom);
-    put_text(j, "key", row->key);
-    put_text(j, "meaning", row->meaning);
+    json_put_real(j, "freedom", row->freedom);
+    json_put_text(j, "key", row->key);
+    json_put_text(j, "meaning", row->meaning);
     json_key(j, "statistical");
     json_boolean(j, row->statistical);
-    put_real(j, "detectable", row->detectable);
-    put_real(j, "alarm_rate", row->alarm_rate);
-    put_text(j, "since", row->since);
-    put_text(j, "bits", row->bits);
+    json_put_real(j, "detectable", row->detectable);
+    json_put_real(j, "alarm_rate", row->alarm_rate);
+    json_put_text(j, "since", row->since);
+    json_put_text(j, "bits", row->bits);
 }
 
 static void put_row(struct json *j, const struct report_row *row) {
     json_begin_object(j);
-    put_text(j, "case", row->case_name);
-    put_text(j, "point", row->point);
-    put_text(j, "check", row->check);
-    put_text(j, "observable", row->observable);
-    put_text(j, "unit", row->unit);
-    put_real(j, "measured", row->measured);
-    put_real(j, "uncertainty", row->uncertainty);
-    put_real(j, "expected", row->expected);
-    put_real(j, "expected_uncertainty", row->expected_uncertainty);
-    put_real(j, "tolerance", row->tolerance);
-    put_text(j, "comparison", row->comparison);
-    put_text(j, "kind", row->kind);
-    put_text(j, "verdict", verdict_name(row->verdict));
-    put_text(j, "because", row->because);
-    put_text(j, "reason", reason_of(row));
+    json_put_text(j, "case", row->case_name);
+    json_put_text(j, "point", row->point);
+    json_put_text(j, "check", row->check);
+    json_put_text(j, "observable", row->observable);
+    json_put_text(j, "unit", row->unit);
+    json_put_real(j, "measured", row->measured);
+    json_put_real(j, "uncertainty", row->uncertainty);
+    json_put_real(j, "expected", row->expected);
+    json_put_real(j, "expected_uncertainty", row->expected_uncertainty);
+    json_put_real(j, "tolerance", row->tolerance);
+    json_put_text(j, "comparison", row->comparison);
+    json_put_text(j, "kind", row->kind);
+    json_put_text(j, "verdict", verdict_name(row->verdict));
+    json_put_text(j, "because", row->because);
+    json_put_text(j, "reason", reason_of(row));
     json_key(j, "runs");
     json_begin_array(j);
     for (size_t i = 0; i < row->run_count; i++)
@@ -105,23 +90,23 @@ static void put_row(struct json *j, const struct report_row *row) {
 
 static void put_head(struct json *j, const struct report *r) {
     struct report_count count = report_tally(r);
-    put_text(j, "schema", "bedcheck-results 1");
-    put_text(j, "suite", r->suite);
-    put_text(j, "tier", r->tier);
-    put_text(j, "solver", r->solver);
-    put_text(j, "solver_key", r->solver_key);
-    put_text(j, "started", r->started);
+    json_put_text(j, "schema", "bedcheck-results 1");
+    json_put_text(j, "suite", r->suite);
+    json_put_text(j, "tier", r->tier);
+    json_put_text(j, "solver", r->solver);
+    json_put_text(j, "solver_key", r->solver_key);
+    json_put_text(j, "started", r->started);
     json_key(j, "modified");
     json_boolean(j, r->modified);
-    put_text(j, "modification", r->modified ? r->modification : NULL);
-    put_text(j, "verdict", verdict_name(report_verdict(r)));
+    json_put_text(j, "modification", r->modified ? r->modification : NULL);
+    json_put_text(j, "verdict", verdict_name(report_verdict(r)));
     json_key(j, "counts");
     json_begin_object(j);
-    put_count(j, "pass", count.pass);
-    put_count(j, "fail", count.fail);
-    put_count(j, "inconclusive", count.inconclusive);
-    put_count(j, "known", count.known);
-    put_count(j, "skipped", count.skipped);
+    json_put_count(j, "pass", count.pass);
+    json_put_count(j, "fail", count.fail);
+    json_put_count(j, "inconclusive", count.inconclusive);
+    json_put_count(j, "known", count.known);
+    json_put_count(j, "skipped", count.skipped);
     json_end_object(j);
 }
 
@@ -130,18 +115,18 @@ static void put_allowance(struct json *j, const struct report *r) {
     struct report_alarms a = report_alarms(r);
     json_key(j, "budget");
     json_begin_object(j);
-    put_real(j, "allowed", r->budget.allowed);
-    put_real(j, "share", r->budget.share);
-    put_count(j, "statistical", r->budget.statistical);
-    put_count(j, "judged", a.rows);
-    put_count(j, "unknown", a.unknown);
-    put_real(j, "computed", a.sum);
+    json_put_real(j, "allowed", r->budget.allowed);
+    json_put_real(j, "share", r->budget.share);
+    json_put_count(j, "statistical", r->budget.statistical);
+    json_put_count(j, "judged", a.rows);
+    json_put_count(j, "unknown", a.unknown);
+    json_put_real(j, "computed", a.sum);
     json_end_object(j);
     json_key(j, "bits");
     json_begin_object(j);
-    put_count(j, "same", r->bits.same);
-    put_count(j, "other", r->bits.other);
-    put_count(j, "unknown", r->bits.unknown);
+    json_put_count(j, "same", r->bits.same);
+    json_put_count(j, "other", r->bits.other);
+    json_put_count(j, "unknown", r->bits.unknown);
     json_end_object(j);
 }
 
@@ -152,8 +137,8 @@ static void put_skipped(struct json *j, const struct report *r) {
         if (!r->cases[i].skipped)
             continue;
         json_begin_object(j);
-        put_text(j, "case", r->cases[i].name);
-        put_text(j, "reason", r->cases[i].skip_reason);
+        json_put_text(j, "case", r->cases[i].name);
+        json_put_text(j, "reason", r->cases[i].skip_reason);
         json_end_object(j);
     }
     json_end_array(j);
@@ -177,7 +162,7 @@ static void put_report(struct json *j, const struct report *r) {
     json_key(j, "provenance");
     json_begin_object(j);
     for (size_t i = 0; i < r->fact_count; i++)
-        put_text(j, r->fact[i].name, r->fact[i].value);
+        json_put_text(j, r->fact[i].name, r->fact[i].value);
     json_end_object(j);
     json_end_object(j);
 }

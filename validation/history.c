@@ -184,25 +184,10 @@ void history_free(struct history *h) {
 
 /* -- writing ---------------------------------------------------------------------- */
 
-static void put_text(struct json *j, const char *key, const char *text) {
-    json_key(j, key);
-    json_text(j, text);
-}
-
-static void put_real(struct json *j, const char *key, double value) {
-    json_key(j, key);
-    json_real(j, value);
-}
-
-static void put_count(struct json *j, const char *key, size_t count) {
-    json_key(j, key);
-    json_integer(j, (long long)count);
-}
-
 static void put_names(struct json *j, const struct results_row *row) {
-    put_text(j, "case", row == NULL ? NULL : row->case_name);
-    put_text(j, "check", row == NULL ? NULL : row->check);
-    put_text(j, "point", row == NULL ? NULL : row->point);
+    json_put_text(j, "case", row == NULL ? NULL : row->case_name);
+    json_put_text(j, "check", row == NULL ? NULL : row->check);
+    json_put_text(j, "point", row == NULL ? NULL : row->point);
 }
 
 static void put_worst(struct json *j, const struct results *r) {
@@ -218,7 +203,7 @@ static void put_worst(struct json *j, const struct results *r) {
     json_key(j, "worst");
     json_begin_object(j);
     put_names(j, worst);
-    put_real(j, "margin_used", largest);
+    json_put_real(j, "margin_used", largest);
     json_end_object(j);
 }
 
@@ -231,11 +216,11 @@ static void put_values(struct json *j, const struct results *r) {
             continue;
         json_begin_object(j);
         put_names(j, row);
-        put_text(j, "unit", row->unit);
-        put_real(j, "measured", row->measured);
-        put_real(j, "uncertainty", row->uncertainty);
-        put_real(j, "expected", row->expected);
-        put_real(j, "tolerance", row->tolerance);
+        json_put_text(j, "unit", row->unit);
+        json_put_real(j, "measured", row->measured);
+        json_put_real(j, "uncertainty", row->uncertainty);
+        json_put_real(j, "expected", row->expected);
+        json_put_real(j, "tolerance", row->tolerance);
         json_end_object(j);
     }
     json_end_array(j);
@@ -298,25 +283,25 @@ static enum status sum_times(const struct results *r, struct times *t, struct fa
 
 static void put_line(struct json *j, const struct results *r, const struct times *t) {
     json_begin_object(j);
-    put_text(j, "schema", "bedcheck-history 1");
-    put_text(j, "commit", r->commit);
-    put_text(j, "dirty", r->dirty);
-    put_text(j, "started", r->started);
-    put_text(j, "tier", r->tier);
-    put_text(j, "solver_key", r->solver_key);
-    put_text(j, "modification", r->modification);
-    put_text(j, "verdict", r->verdict);
+    json_put_text(j, "schema", "bedcheck-history 1");
+    json_put_text(j, "commit", r->commit);
+    json_put_text(j, "dirty", r->dirty);
+    json_put_text(j, "started", r->started);
+    json_put_text(j, "tier", r->tier);
+    json_put_text(j, "solver_key", r->solver_key);
+    json_put_text(j, "modification", r->modification);
+    json_put_text(j, "verdict", r->verdict);
     json_key(j, "counts");
     json_begin_object(j);
-    put_count(j, "pass", r->counts.pass);
-    put_count(j, "known", r->counts.known);
-    put_count(j, "fail", r->counts.fail);
-    put_count(j, "inconclusive", r->counts.inconclusive);
-    put_count(j, "skipped", r->counts.skipped);
+    json_put_count(j, "pass", r->counts.pass);
+    json_put_count(j, "known", r->counts.known);
+    json_put_count(j, "fail", r->counts.fail);
+    json_put_count(j, "inconclusive", r->counts.inconclusive);
+    json_put_count(j, "skipped", r->counts.skipped);
     json_end_object(j);
     put_worst(j, r);
-    put_real(j, "wall_s", t->wall_s);
-    put_real(j, "cpu_s", t->cpu_s);
+    json_put_real(j, "wall_s", t->wall_s);
+    json_put_real(j, "cpu_s", t->cpu_s);
     put_values(j, r);
     json_end_object(j);
 }

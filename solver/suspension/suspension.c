@@ -315,11 +315,6 @@ static enum status suspension_create(void **state, const struct parameter_set *p
     return STATUS_OK;
 }
 
-static void report_number(struct json *j, const char *key, double value) {
-    json_key(j, key);
-    json_real(j, value);
-}
-
 static void report_cost(const void *state, struct json *j) {
     const struct suspension *s = state;
     const struct engine_tally *t = engine_tally(s->engine);
@@ -335,16 +330,16 @@ static void report_cost(const void *state, struct json *j) {
                  {"looks", s->look},
                  {"clock_rebases", t->rebases},
                  {"rebuilds", t->rebuilds}};
-    report_number(j, "start_s", s->start_seconds);
-    report_number(j, "events_and_kicks_s", s->step_seconds - s->look_seconds);
-    report_number(j, "looks_s", s->look_seconds);
-    report_number(j, "observe_s", s->observe_seconds);
+    json_put_real(j, "start_s", s->start_seconds);
+    json_put_real(j, "events_and_kicks_s", s->step_seconds - s->look_seconds);
+    json_put_real(j, "looks_s", s->look_seconds);
+    json_put_real(j, "observe_s", s->observe_seconds);
     for (size_t k = 0; k < sizeof event / sizeof *event; k++) {
         json_key(j, event[k].key);
         json_integer(j, event[k].count);
     }
-    report_number(j, "start_collisions_per_sphere", s->start_collisions);
-    report_number(j, "engine_bytes_per_sphere",
+    json_put_real(j, "start_collisions_per_sphere", s->start_collisions);
+    json_put_real(j, "engine_bytes_per_sphere",
                   (double)engine_bytes(s->engine) / (double)s->parameters.particles);
 }
 
