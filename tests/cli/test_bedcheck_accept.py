@@ -171,14 +171,18 @@ def made(tmp_path_factory):
     return bench
 
 
-@pytest.fixture
-def bench(made, tmp_path, monkeypatch):
-    """A copy of it for each test."""
+def fresh_copy(made, folder, monkeypatch):
+    """A copy of a checkout and its results below folder, for one test."""
     monkeypatch.delenv("CI", raising=False)
     monkeypatch.setenv("FAKE_BUILD", json.dumps({"commit": made.head(), "dirty": "clean"}))
-    shutil.copytree(made.top, tmp_path / "tree")
-    shutil.copytree(made.out, tmp_path / "out")
-    return Checkout(tmp_path)
+    shutil.copytree(made.top, folder / "tree")
+    shutil.copytree(made.out, folder / "out")
+    return Checkout(folder)
+
+
+@pytest.fixture
+def bench(made, tmp_path, monkeypatch):
+    return fresh_copy(made, tmp_path, monkeypatch)
 
 
 def ensembles(table):

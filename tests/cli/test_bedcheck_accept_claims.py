@@ -1,11 +1,10 @@
 """bedcheck accept and the verdicts of the papers' claims: stored, judged by, and refused."""
 
 import json
-import shutil
 
 import pytest
 
-from test_bedcheck_accept import CASE, SECOND, Checkout, add_line, lines_of
+from test_bedcheck_accept import CASE, SECOND, Checkout, add_line, fresh_copy, lines_of
 
 CLAIMS = """
 paper: FAKE
@@ -72,11 +71,7 @@ def made(tmp_path_factory):
 
 @pytest.fixture
 def bench(made, tmp_path, monkeypatch):
-    monkeypatch.delenv("CI", raising=False)
-    monkeypatch.setenv("FAKE_BUILD", json.dumps({"commit": made.head(), "dirty": "clean"}))
-    shutil.copytree(made.top, tmp_path / "tree")
-    shutil.copytree(made.out, tmp_path / "out")
-    return Checkout(tmp_path)
+    return fresh_copy(made, tmp_path, monkeypatch)
 
 
 def accept(bench, *words, **choices):

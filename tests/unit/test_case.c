@@ -310,9 +310,5 @@ int main(void) {
     tcase_add_test(group, several_faults_are_told_at_once_and_each_once);
     tcase_add_test(group, names_and_values_are_compared_as_meant);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return unit_finish(suite);
 }

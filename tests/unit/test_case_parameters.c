@@ -399,9 +399,5 @@ int main(void) {
     tcase_add_test(group, a_list_of_one_number_is_an_input);
     tcase_add_test(group, a_model_without_readings_is_told_where_they_would_stand);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
+    return unit_finish(suite);
 }

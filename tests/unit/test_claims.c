@@ -190,9 +190,5 @@ int main(void) {
     tcase_add_test(group, the_place_is_beside_the_cases);
     tcase_add_test(group, the_claims_of_the_suite_are_whole);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return unit_finish(suite);
 }

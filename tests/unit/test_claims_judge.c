@@ -251,9 +251,5 @@ int main(void) {
     tcase_add_test(group, an_undecided_claim_leaves_its_row_open);
     tcase_add_test(group, other_tiers_and_cases_that_were_not_run_have_no_row);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return unit_finish(suite);
 }

@@ -157,9 +157,5 @@ int main(void) {
     tcase_add_test(group, the_line_of_one_claim_and_tier_is_removed);
     tcase_add_loop_test(group, every_fault_is_told, 0, sizeof bad / sizeof *bad);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return unit_finish(suite);
 }

@@ -145,9 +145,5 @@ int main(void) {
     tcase_add_test(group, no_file_is_an_empty_gallery_and_ours_is_whole);
     tcase_add_test(group, what_is_not_there_is_told);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return unit_finish(suite);
 }

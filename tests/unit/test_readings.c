@@ -115,9 +115,5 @@ int main(void) {
     tcase_add_test(group, the_folder_holds_nothing_else);
     tcase_add_test(group, the_readings_of_the_suite_are_whole);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
+    return unit_finish(suite);
 }

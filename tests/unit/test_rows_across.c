@@ -209,9 +209,5 @@ int main(void) {
     tcase_add_test(group, a_failed_run_leaves_the_fit_open);
     tcase_add_loop_test(group, every_fault_is_told, 0, sizeof bad / sizeof *bad);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
+    return unit_finish(suite);
 }

@@ -104,9 +104,5 @@ int main(void) {
     tcase_add_loop_test(tests, what_does_not_fit_is_refused_with_its_place, 0,
                         sizeof bad / sizeof *bad);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return unit_finish(suite);
 }

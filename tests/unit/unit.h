@@ -50,7 +50,16 @@ static inline void unit_ok(enum status status, const struct fault *fault) {
     ck_assert_msg(status == STATUS_OK, "status %d: %s", (int)status, fault->text);
 }
 
-/* Run one suite of tests; the program's exit code. */
+/* Run a suite; the program's exit code. */
+static inline int unit_finish(Suite *suite) {
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    int failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+/* A suite of one group of tests without loops. */
 static inline int unit_run(const char *name, const TTest *const *tests) {
     Suite *suite = suite_create(name);
     TCase *group = tcase_create(name);
@@ -58,11 +67,7 @@ static inline int unit_run(const char *name, const TTest *const *tests) {
     for (; *tests != NULL; tests++)
         tcase_add_test(group, *tests);
     suite_add_tcase(suite, group);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return unit_finish(suite);
 }
 
 #endif
