@@ -162,6 +162,12 @@ enum { CROWD = 150 };
 static void put_style(FILE *out, const struct report_series *s, double size) {
     const char *colour = colour_of(s->colour);
     size *= s->style == SERIES_DOTS || s->count > CROWD ? 0.4 : 1;
+    if (s->count == 1 && (s->style == SERIES_LINE || s->style == SERIES_DASHED)) {
+        /* A line of one point would not be seen. */
+        fprintf(out, "points pt %d ps %.2g lw 2 lc rgb '%s'", s->style == SERIES_LINE ? 1 : 2,
+                1.5 * size, colour);
+        return;
+    }
     switch (s->style) {
     case SERIES_POINTS:
     case SERIES_DOTS:

@@ -80,6 +80,20 @@ START_TEST(a_measured_point_outside_of_given_limits_is_drawn) {
 }
 END_TEST
 
+START_TEST(a_line_of_one_point_is_drawn_as_a_mark) {
+    struct sample s;
+    struct sheet svg;
+    sample_fill(&s);
+    s.figure[0].panel_count = 1;
+    s.series[1].style = SERIES_LINE;
+    s.series[1].count = 1;
+    draw(&s.figure[0], "f-", &svg);
+    /* crosses are gnuplot's mark 1: the point and one in the key */
+    ck_assert_uint_eq(occurrences(svg.text, "<use href='#f-gpPt0' x="), 2);
+    sheet_free(&svg);
+}
+END_TEST
+
 START_TEST(what_cannot_be_drawn_leaves_a_legible_figure) {
     struct sample s;
     struct sheet svg;
@@ -171,6 +185,7 @@ int main(void) {
                                   every_id_begins_with_the_prefix,
                                   names_stand_on_the_axis_once_and_long_ones_are_cut,
                                   a_measured_point_outside_of_given_limits_is_drawn,
+                                  a_line_of_one_point_is_drawn_as_a_mark,
                                   what_cannot_be_drawn_leaves_a_legible_figure,
                                   the_same_figure_has_the_same_bytes,
                                   no_gnuplot_is_said_clearly,
