@@ -214,8 +214,7 @@ static size_t draw_branches(const struct branch *list, size_t count, enum compar
         lower += add_margins(b, comparison, (int)i, has_names, a, &rest[lower]);
     }
     panel[0] = (struct report_panel){.series_count = upper, .series = top};
-    panel[1] = (struct report_panel){
-        .y_label = "measured - expected", .series_count = lower, .series = rest};
+    panel[1] = (struct report_panel){.series_count = lower, .series = rest};
     return upper;
 }
 
@@ -236,6 +235,7 @@ static enum status draw_check(const struct figure_input *in, const struct case_c
         draw_branches(list, count, check->comparison, along->has_names, a, panel) == 0)
         return no_memory(fault);
     panel[0].y_label = label_axis(list[0].quantity, check->unit, a);
+    panel[1].y_label = label_axis("measured - expected", check->unit, a);
     struct report_figure f = {
         .name = arena_text(a, "check-%zu", number),
         .title = check->name,
@@ -251,7 +251,8 @@ static enum status draw_check(const struct figure_input *in, const struct case_c
         .panel_count = 2,
         .panel = panel};
     if (f.name == NULL || f.caption == NULL || f.alt == NULL || f.x_label == NULL ||
-        panel[0].y_label == NULL || (along->has_names && f.x_name == NULL))
+        panel[0].y_label == NULL || panel[1].y_label == NULL ||
+        (along->has_names && f.x_name == NULL))
         return no_memory(fault);
     return figure_add(out, &f, fault);
 }
@@ -289,7 +290,8 @@ static enum status draw_overview(const struct figure_input *in, struct figure_ou
         .title = "All checks, in units of their margin",
         .caption = "One point a row of the table, in its order. What must lie within its margin "
                    "passes between the dashed lines, what must lie outside beyond them, what has "
-                   "an upper limit below the upper line, a lower limit above the lower one.",
+                   "an upper limit below the upper line, a lower limit above the lower one. Limits "
+                   "without a margin are left out.",
         .alt = "Residual of every check divided by its margin",
         .x_label = "row of the table",
         .panel_count = 1,
