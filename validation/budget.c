@@ -151,6 +151,8 @@ static enum status fill(struct budget *b, const struct opening *o, struct fault 
         b->statistical += budget_count(&b->plan->cases[i]);
     b->share = SUITE_FALSE_ALARMS / (double)(b->statistical > 0 ? b->statistical : 1);
     for (size_t i = 0; status == STATUS_OK && o->refuse && i < b->plan->case_count; i++) {
+        if (b->references[i] != NULL)
+            reference_check_tier(b->references[i], &b->plan->cases[i], fault);
         if (is_wanted(o->wanted, b->plan->cases[i].file->name))
             budget_refuse(&b->plan->cases[i], b->references[i], b->share, fault);
     }

@@ -10,9 +10,9 @@
  * model check follows from its margin and is computed where there is an ensemble
  * (alarm.h); the report says the sum, and how many rates are not known.
  *
- * Opening a budget reads the references too, and refuses a regression check
- * whose reference cannot show the change that it says it detects, before
- * anything is run.
+ * Opening a budget reads the references too, and refuses, before anything is run,
+ * a reference that no check uses and a regression check whose reference cannot
+ * show the change that it says it detects.
  *
  * Checked by: tests/unit/test_budget.c, tests/unit/test_judge_regression.c.
  */
@@ -38,7 +38,8 @@ struct budget {
  * On error *out is NULL and fault has every finding. */
 enum status budget_open(const char *cases_folder, const char *references_folder, enum tier tier,
                         const struct plan *wanted, struct budget **out, struct fault *fault);
-/* The same for who is to replace references: checks that cannot see what they say are let be. */
+/* The same for who is to replace references: checks that cannot see what they say and
+ * references that no check uses are let be. */
 enum status budget_open_unrefused(const char *cases_folder, const char *references_folder,
                                   enum tier tier, const struct plan *wanted, struct budget **out,
                                   struct fault *fault);

@@ -48,16 +48,7 @@ static enum status check_references_of(const struct selection *s, enum tier tier
     }
     enum status status = plan_make(order, count, (const struct case_file *const *)s->all,
                                    s->all_count, tier, 0, &plan, fault);
-    for (size_t i = 0; status == STATUS_OK && i < count; i++) {
-        struct references *r = NULL;
-        struct fault found = FAULT_NONE;
-        if (reference_load(folder, order[i].file->name, &r, &found) == STATUS_OK)
-            reference_check_tier(r, &plan->cases[i], &found);
-        if (found.status != STATUS_OK)
-            fault_add(fault, found.status, "%s", found.text);
-        reference_free(r);
-    }
-    if (fault->status == STATUS_OK && count > 0)
+    if (status == STATUS_OK && count > 0)
         budget_open(cases, folder, tier, plan, &budget, fault);
     budget_close(budget);
     plan_free(plan);

@@ -48,17 +48,6 @@ static enum status check_settings(const struct command_options *o, struct fault 
     return fault->status;
 }
 
-/* Lines of the tables that no check of the tier uses; other numbers of seeds leave bits unused. */
-static enum status refuse_unused_references(struct work *w) {
-    for (size_t i = 0; w->o->seed_count == 0 && i < w->plan->case_count; i++) {
-        const struct plan_case *c = &w->plan->cases[i];
-        const struct references *r = budget_references(w->budget, c->file->name);
-        if (r != NULL)
-            reference_check_tier(r, c, w->fault);
-    }
-    return w->fault->status;
-}
-
 static enum status choose_cases(struct work *w) {
     const struct command_options *o = w->o;
     struct selection_request request = {.folder = o->cases_folder,
@@ -83,10 +72,9 @@ static enum status choose_cases(struct work *w) {
         plan_make(w->selection->order, w->selection->count,
                   (const struct case_file *const *)w->selection->all, w->selection->all_count,
                   request.tier, o->seed_offset, &w->plan, w->fault);
-    if (status == STATUS_OK)
-        status = budget_open(o->cases_folder, o->references_folder, request.tier, w->plan,
-                             &w->budget, w->fault);
-    return status == STATUS_OK ? refuse_unused_references(w) : status;
+    return status == STATUS_OK ? budget_open(o->cases_folder, o->references_folder, request.tier,
+                                             w->plan, &w->budget, w->fault)
+                               : status;
 }
 
 /* What is wrong with the claims is told now, not after the last run. */

@@ -88,6 +88,30 @@ START_TEST(a_pair_that_cannot_see_what_it_says_is_refused) {
 }
 END_TEST
 
+/* Whoever opens a budget, a run or a report made anew, is told of a reference that counts for
+ * nothing. */
+START_TEST(a_reference_that_no_check_uses_opens_no_budget) {
+    struct stage s;
+    struct fault fault;
+    struct budget *b;
+    stage_begin(&s, text);
+    unit_ok(stage_open(&s, TIER_SMOKE, &fault), &fault);
+    struct reference line = stage_line(&s, 0, 1, ORIGIN_ENSEMBLE, 1.37, 0.0079);
+    line.observable = "bed.largest_overlp";
+    stage_write(&s, &line, 1);
+    ck_assert_int_eq(stage_open(&s, TIER_SMOKE, &fault), STATUS_BAD_INPUT);
+    unit_says(&fault,
+              "case.tsv:3: bed.largest_overlp: no check of this point has such an observable; "
+              "did you mean bed.largest_overlap?");
+    /* who is to replace references may */
+    unit_ok(budget_open_unrefused(unit_path(s.folder, "cases"), unit_path(s.folder, "references"),
+                                  TIER_SMOKE, NULL, &b, &fault),
+            &fault);
+    budget_close(b);
+    stage_end(&s);
+}
+END_TEST
+
 START_TEST(a_broken_table_opens_no_budget) {
     struct stage s;
     struct fault fault;
@@ -125,6 +149,7 @@ int main(void) {
     const TTest *const tests[] = {rows_that_hang_on_chance_share_the_budget_of_the_whole_tier,
                                   a_check_that_cannot_see_what_it_says_is_refused_before_any_run,
                                   a_pair_that_cannot_see_what_it_says_is_refused,
+                                  a_reference_that_no_check_uses_opens_no_budget,
                                   a_broken_table_opens_no_budget,
                                   only_wanted_cases_must_be_good,
                                   NULL};
