@@ -9,6 +9,9 @@
 
 enum { MAX_FRAMES = 10000000 };
 
+/* A lattice is one site thick: a mesh of two dimensions would lie in the plane of y and z. */
+#define ONE_SITE "1 "
+
 struct sidecar {
     struct h5_reader *result;
     const char *base; /* the result's name without folders */
@@ -69,12 +72,13 @@ static void put_source(const struct sidecar *s, const char *path, const char *ty
     fprintf(s->out, ":/%s</DataItem>\n", path);
 }
 
-/* One frame of a series: its first `kept` dimensions, of the last one a component (-1: all). */
-static void put_slab(const struct sidecar *s, const struct shape *a, size_t frame, int kept,
-                     int component) {
+/* One frame of a series: its first `kept` dimensions after those of `before`, of the last one a
+ * component (-1: all). */
+static void put_slab(const struct sidecar *s, const struct shape *a, size_t frame,
+                     const char *before, int kept, int component) {
     char path[128];
     int rank = a->rank + 1;
-    fputs("        <DataItem ItemType=\"HyperSlab\" Dimensions=\"", s->out);
+    fprintf(s->out, "        <DataItem ItemType=\"HyperSlab\" Dimensions=\"%s", before);
     for (int i = 0; i < kept; i++)
         fprintf(s->out, "%s%zu", i ? " " : "", a->dims[i]);
     fprintf(s->out, "\">\n          <DataItem Dimensions=\"3 %d\" Format=\"XML\">%zu", rank, frame);
@@ -103,7 +107,7 @@ static void put_attribute(const struct sidecar *s, const struct shape *a, size_t
         fprintf(s->out,
                 "      <Attribute Name=\"%s%s\" AttributeType=\"Scalar\" Center=\"Node\">\n", name,
                 components > 1 ? suffix[c] : "");
-        put_slab(s, a, frame, grid, components > 1 ? c : -1);
+        put_slab(s, a, frame, grid == 2 ? ONE_SITE : "", grid, components > 1 ? c : -1);
         fputs("      </Attribute>\n", s->out);
     }
 }
@@ -161,13 +165,14 @@ static enum status write_lattice(const struct sidecar *s, const struct shape *fi
         fprintf(s->out,
                 "    <Grid Name=\"fields %zu\" GridType=\"Uniform\">\n"
                 "      <Time Value=\"%.17g\"/>\n"
-                "      <Topology TopologyType=\"2DCoRectMesh\" Dimensions=\"%zu %zu\"/>\n"
-                "      <Geometry GeometryType=\"ORIGIN_DXDY\">\n"
-                "        <DataItem Dimensions=\"2\" Format=\"XML\">%.17g %.17g</DataItem>\n"
-                "        <DataItem Dimensions=\"2\" Format=\"XML\">%.17g %.17g</DataItem>\n"
+                "      <Topology TopologyType=\"3DCoRectMesh\" Dimensions=\"" ONE_SITE
+                "%zu %zu\"/>\n"
+                "      <Geometry GeometryType=\"ORIGIN_DXDYDZ\">\n"
+                "        <DataItem Dimensions=\"3\" Format=\"XML\">0 %.17g %.17g</DataItem>\n"
+                "        <DataItem Dimensions=\"3\" Format=\"XML\">1 %.17g %.17g</DataItem>\n"
                 "      </Geometry>\n",
-                f, time[f], field[0].dims[0], field[0].dims[1], origin[1], origin[0], spacing[1],
-                spacing[0]);
+                f, time[f], field[0].dims[0], field[0].dims[1], origin[0], origin[1], spacing[0],
+                spacing[1]);
         for (size_t i = 0; i < count; i++)
             put_attribute(s, &field[i], f, 2);
         fputs("    </Grid>\n", s->out);
@@ -242,7 +247,7 @@ static enum status write_particles(struct sidecar *s, const char *group, struct 
                 "      <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%zu\"/>\n"
                 "      <Geometry GeometryType=\"%s\">\n",
                 group, f, time[f], place.dims[0], place.dims[1] == 2 ? "XY" : "XYZ");
-        put_slab(s, &place, f, 2, -1);
+        put_slab(s, &place, f, "", 2, -1);
         fputs("      </Geometry>\n", s->out);
         put_fixed(s, group, "radius", place.dims[0], "Float");
         put_fixed(s, group, "species", place.dims[0], "Int");

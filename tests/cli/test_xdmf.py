@@ -165,15 +165,16 @@ def test_fields_are_read_back_site_by_site(result, bedsim, tmp_path):
         assert [float(g.find("Time").get("Value")) for g in frames] == list(f["fields/pressure/time"])
         for k, grid in enumerate(frames):
             topology, geometry = grid.find("Topology"), grid.find("Geometry")
-            assert topology.get("TopologyType") == "2DCoRectMesh"
-            assert topology.get("Dimensions") == "10 8"
-            assert geometry.get("GeometryType") == "ORIGIN_DXDY"
-            assert [list(array(i, tmp_path)) for i in geometry] == [[0, 0], [1, 1]]
+            # one site thick: readers put a mesh of two dimensions into the plane of y and z
+            assert topology.get("TopologyType") == "3DCoRectMesh"
+            assert topology.get("Dimensions") == "1 10 8"
+            assert geometry.get("GeometryType") == "ORIGIN_DXDYDZ"
+            assert [list(array(i, tmp_path)) for i in geometry] == [[0, 0, 0], [1, 1, 1]]
             found = attributes(grid, tmp_path)
             for name in ("pressure", "solid_fraction", "collision_virial"):
-                assert np.array_equal(found[name], f[f"fields/{name}/value"][k]), name
+                assert np.array_equal(found[name], f[f"fields/{name}/value"][k:k + 1]), name
             for c, name in enumerate(("grain_velocity_x", "grain_velocity_y")):
-                assert np.array_equal(found[name], f["fields/grain_velocity/value"][k, :, :, c])
+                assert np.array_equal(found[name], f["fields/grain_velocity/value"][k:k + 1, :, :, c])
             assert len(found) == 5
     assert path.read_bytes() == before
 
@@ -203,7 +204,7 @@ def test_a_name_with_marks_of_xml_and_a_result_without_arrays(result, bedsim, tm
     path = result(GRAINS, 'a<b>&"c.h5', only="fields/")
     assert bedsim("xdmf", path).returncode == 0
     frames = grids(tmp_path / 'a<b>&"c.xdmf', "fields")
-    assert attributes(frames[2], tmp_path)["pressure"].shape == (10, 8)
+    assert attributes(frames[2], tmp_path)["pressure"].shape == (1, 10, 8)
     path = result(SPHERES, "profiles.h5", only="profiles/")
     done = bedsim("xdmf", path)
     assert done.returncode == 2 and "neither fields nor particles" in done.stderr
