@@ -6,6 +6,7 @@
  * Leaves out: single seeds (their values are in results.json where a check judges them).
  * Checked by: tests/unit/test_figure_recipes.c.
  */
+#include "report/words.h"
 #include "validation/figure_recipes.h"
 
 #include <math.h>
@@ -17,11 +18,7 @@ static enum status no_memory(struct fault *fault) {
 static const char *value_text(struct arena *a, double value, double error) {
     if (!isfinite(value))
         return "-";
-    if (!(error > 0))
-        return arena_text(a, "%.4g", value);
-    int digits = (int)ceil(-log10(error)) + 1; /* two of the error */
-    digits = digits < 0 ? 0 : digits > 9 ? 9 : digits;
-    return arena_text(a, "%.*f ± %.*f", digits, value, digits, error);
+    return arena_copy(a, error > 0 ? words_measured(value, error).text : words_number(value).text);
 }
 
 static const char *const *head(const struct figure_input *in, struct arena *a) {

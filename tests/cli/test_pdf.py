@@ -78,6 +78,14 @@ def test_a_whole_one_is_kept(root, folder, printer):
     assert (folder / "report" / "report.pdf").read_bytes() == b"%PDF-1.7\n%%EOF\n"
 
 
+def test_weasyprint_sees_no_colour_that_it_stops_at(root, folder, printer):
+    page = folder / "report" / "index.html"
+    page.write_text("<svg color='#000'><path id='a' stroke='currentColor'/></svg>")
+    done = pdf(root, folder, printer("! grep currentColor \"$2\" && printf '%%PDF-1.7\\n%%%%EOF\\n' > \"$3\"\n"))
+    assert done.returncode == 0, done.stderr
+    assert "currentColor" in page.read_text()
+
+
 def test_a_folder_without_a_page(root, tmp_path):
     done = pdf(root, tmp_path)
     assert done.returncode == 2 and "no such page" in done.stderr
