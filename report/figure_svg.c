@@ -15,13 +15,11 @@ enum status draw_embed_svg(const char *file, const struct report_figure *f, cons
     enum status status = sheet_open(svg, fault);
     if (status)
         return status;
-    fprintf(
-        svg->out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-        "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"%.*s\" role=\"img\" " SHRINK_ROOT
-        " "
-        "aria-describedby=\"%sdesc\">\n<title>",
-        (int)box_length, box, prefix);
+    fprintf(svg->out,
+            "<svg id=\"%ssvg\" xmlns=\"http://www.w3.org/2000/svg\" "
+            "xmlns:xlink=\"http://www.w3.org/1999/xlink\" viewBox=\"%.*s\" "
+            "role=\"img\" style=\"" SHRINK_STYLE "\" aria-describedby=\"%sdesc\">\n<title>",
+            prefix, (int)box_length, box, prefix);
     escape_markup(svg->out, f->title);
     fprintf(svg->out, "</title>\n<desc id=\"%sdesc\">", prefix);
     escape_markup(svg->out, f->alt);

@@ -19,6 +19,7 @@ struct page {
     const struct report *report;
     const char *folder; /* full-size pictures go here */
     size_t figures;     /* drawn so far: numbers their ids */
+    size_t gallery;     /* number of the gallery's first figure, 0 before there is one */
 };
 
 /* before and after are markup of ours; text is foreign and escaped. */

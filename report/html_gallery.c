@@ -54,6 +54,22 @@ static enum status put_item(struct page *p, const struct report_gallery_item *it
     return status;
 }
 
+size_t html_gallery_figure(const struct page *p, const struct report_figure *f) {
+    const struct report_gallery *g = p->report->gallery;
+    size_t number = p->gallery;
+    for (size_t i = 0; number > 0 && i < g->count; i++) {
+        for (size_t k = 0; k < g->entry[i].count; k++) {
+            const struct report_gallery_item *item = &g->entry[i].item[k];
+            size_t begin = item->begin[GALLERY_PLOT], end = item->end[GALLERY_PLOT];
+            for (size_t n = begin; item->missing == NULL && n < end; n++, number++) {
+                if (&item->in->figure[n] == f)
+                    return number;
+            }
+        }
+    }
+    return 0;
+}
+
 static enum status put_entry(struct page *p, const struct report_gallery_entry *e,
                              struct fault *fault) {
     enum status status = STATUS_OK;
@@ -76,6 +92,7 @@ enum status html_gallery(struct page *p, struct fault *fault) {
     enum status status = STATUS_OK;
     if (g == NULL || g->count == 0)
         return STATUS_OK;
+    p->gallery = p->figures + 1;
     fprintf(p->out, "<section id=\"gallery\">\n<h2>The papers' figures, and ours</h2>\n");
     for (size_t i = 0; i < g->count && !status; i++)
         status = put_entry(p, &g->entry[i], fault);

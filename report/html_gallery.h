@@ -12,4 +12,7 @@ enum status html_gallery(struct page *p, struct fault *fault);
 void html_gallery_id(struct page *p, const struct report_case *c, enum gallery_kind kind,
                      size_t index);
 
+/* The number under which the gallery draws f ("figure3-svg"); 0: it does not, or not yet. */
+size_t html_gallery_figure(const struct page *p, const struct report_figure *f);
+
 #endif

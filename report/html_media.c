@@ -6,6 +6,7 @@
 #include "common/file.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* "CASE.NAME.png": pictures of several cases share one folder. */
 static enum status name_of_file(const struct report_case *c, const char *what, const char *ending,
@@ -143,6 +144,18 @@ done:
     return status;
 }
 
+/* A figure that the gallery has drawn is shown from there: the page has it once. */
+static void put_drawing(struct page *p, const struct report_figure *f, const struct sheet *svg) {
+    size_t drawn = html_gallery_figure(p, f);
+    const char *body = strstr(svg->text, "</desc>");
+    if (drawn == 0 || drawn >= p->figures || body == NULL) {
+        fwrite(svg->text, 1, svg->length, p->out);
+        return;
+    }
+    fwrite(svg->text, 1, (size_t)(body - svg->text), p->out);
+    fprintf(p->out, "</desc>\n<use xlink:href=\"#figure%zu-svg\"/></svg>\n", drawn);
+}
+
 /* Of a case, with its id, or of none (c NULL). */
 static enum status plot(struct page *p, const struct report_case *c, const struct report_figure *f,
                         struct fault *fault) {
@@ -159,7 +172,7 @@ static enum status plot(struct page *p, const struct report_case *c, const struc
     html_text(p, "<h3>", f->title, "</h3>\n");
     html_text(p, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Figure: ",
               f->title, "\">\n");
-    fwrite(svg.text, 1, svg.length, p->out);
+    put_drawing(p, f, &svg);
     fprintf(p->out, "</div>\n");
     if (f->caption && *f->caption)
         html_text(p, "<figcaption>", f->caption, "</figcaption>\n");

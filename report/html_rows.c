@@ -96,11 +96,19 @@ static void put_trouble(struct page *p, const struct report_row *row) {
     fprintf(p->out, "</div>\n");
 }
 
+/* A run's name; where only the seed differs from the one before, as "s5102" alone. */
+static const char *short_name(const char *run, const char *before) {
+    const char *seed = strrchr(run, '-');
+    size_t same = seed == NULL ? 0 : (size_t)(seed - run) + 1;
+    return before != NULL && same > 0 && strncmp(run, before, same) == 0 ? seed + 1 : run;
+}
+
 static void put_runs_of(struct page *p, const struct report_row *row) {
     html_text(p, "<dt>", row->point && *row->point ? row->point : "the only point", "");
     fprintf(p->out, "</dt>\n<dd><p>");
     for (size_t i = 0; i < row->run_count; i++)
-        html_text(p, i > 0 ? ", <code>" : "<code>", row->runs[i], "</code>");
+        html_text(p, i > 0 ? ", <code>" : "<code>",
+                  short_name(row->runs[i], i > 0 ? row->runs[i - 1] : NULL), "</code>");
     if (isfinite(row->seconds) && row->seconds > 0)
         fprintf(p->out, "%s%s", row->run_count > 0 ? "; " : "", words_seconds(row->seconds).text);
     fprintf(p->out, "</p>\n");

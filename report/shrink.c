@@ -235,7 +235,7 @@ static void put_colour(FILE *out, struct span value) {
         fwrite(value.at, 1, value.length, out);
 }
 
-/* What is the default anyway, what SHRINK_ROOT sets, and names that nothing refers to. */
+/* What is the default anyway, what SHRINK_STYLE sets, and names that nothing refers to. */
 static bool is_dropped(const struct shrinker *w, bool in_group, struct attribute a) {
     bool is_whole = in_group && ((is_word(a.name, "fill") && is_word(a.value, "none")) ||
                                  (is_word(a.name, "color") && is_word(a.value, "black")) ||

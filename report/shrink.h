@@ -13,9 +13,8 @@
 
 #include <stdio.h>
 
-/* Of the element around the body: what its groups would each repeat.  Attributes, as not every
- * program that prints pages applies styles to drawings. */
-#define SHRINK_ROOT "font-family=\"sans-serif\" fill=\"none\" color=\"#000\""
+/* Style of the element around the body: what its groups would each repeat. */
+#define SHRINK_STYLE "font-family:sans-serif;fill:none;color:#000"
 
 /* body: elements, from behind gnuplot's own head to </svg>.  Ids and what refers to them get the
  * prefix; ids that nothing can refer to go, and so do titles, which are gnuplot's own names. */

@@ -1,5 +1,6 @@
 /* test_html.c -- index.html: self-contained, valid, every name shown as text. */
 #include "common/file.h"
+#include "report/gallery.h"
 #include "tests/unit/sequence_sample.h"
 #include "tests/unit/unit.h"
 
@@ -192,7 +193,7 @@ START_TEST(a_red_row_tells_how_to_repeat_it) {
     char *text = written(&s.report, folder);
     has(text, "1.3137 lies above 1.2463");
     has(text, "bedsim run &#39;a b.yaml&#39; --seed 1101");
-    has(text, "<code>graingas.sedimentation.1a2b3c4d-s1102</code>");
+    has(text, "<code>graingas.sedimentation.1a2b3c4d-s1101</code>, <code>s1102</code>");
     has(text, "1.314 ± 0.012");
     has(text, "four seeds of an independent code");
     has(text, "bedcheck run graingas/sedimentation</code>");
@@ -232,6 +233,37 @@ START_TEST(the_page_is_valid) {
         snprintf(command, sizeof command, "tidy -q -e '%s'", unit_path(folder, "index.html"));
         ck_assert_int_eq(system(command), 0);
     }
+    unit_remove(folder);
+}
+END_TEST
+
+/* The gallery hangs the second figure of the first case, twice; the case has both of its own. */
+START_TEST(a_figure_of_the_gallery_is_drawn_once) {
+    struct sample s;
+    char command[512];
+    sample_fill(&s);
+    const struct report_gallery_item item = {.case_name = s.cases[0].name,
+                                             .in = &s.cases[0],
+                                             .begin = {[GALLERY_PLOT] = 1},
+                                             .end = {[GALLERY_PLOT] = 2}};
+    const struct report_gallery_entry entry[2] = {
+        {.paper = "MFM", .figure = "Fig. 4", .shows = "a", .axes = "b", .count = 1, .item = &item},
+        {.paper = "MFM", .figure = "Fig. 5", .shows = "c", .axes = "d", .count = 1, .item = &item}};
+    const struct report_gallery gallery = {2, entry};
+    const char *folder = unit_folder();
+    char *text = written(&s.report, folder);
+    size_t without = strlen(text), figures = times(text, "<svg id=\"");
+    free(text);
+    s.report.gallery = &gallery;
+    text = written(&s.report, folder);
+    ck_assert_uint_eq(times(text, "<svg id=\""), figures + 2);
+    ck_assert_uint_eq(times(text, "<use xlink:href=\"#figure1-svg\"/></svg>"), 2);
+    ck_assert_uint_eq(times(text, "<svg id=\"figure1-svg\""), 1);
+    ck_assert_uint_lt(strlen(text), without + 4000);
+    snprintf(command, sizeof command, "tidy -q -e '%s'", unit_path(folder, "index.html"));
+    if (system("command -v tidy >/dev/null") == 0)
+        ck_assert_int_eq(system(command), 0);
+    free(text);
     unit_remove(folder);
 }
 END_TEST
@@ -287,6 +319,7 @@ END_TEST
 
 int main(void) {
     const TTest *const tests[] = {a_known_disagreement_has_a_colour_and_a_count_of_its_own,
+                                  a_figure_of_the_gallery_is_drawn_once,
                                   sequences_stand_in_the_page_and_players_beside_it,
                                   ids_are_unique_in_a_page_of_two_figures,
                                   foreign_names_are_text,
