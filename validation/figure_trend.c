@@ -353,11 +353,15 @@ static enum status draw_trend(struct drawing *d, struct figure_output *out, stru
             return no_memory(fault);
     }
     join_theory(s, count / (1 + THEORIES));
-    for (size_t c = 0; c < THEORIES; c++) /* entries of the key */
-        if (d->has_theory[c])
-            s[count++] = (struct report_series){.label = d->t->theory[c].label,
-                                                .style = c == 0 ? SERIES_DASHED : SERIES_LINE,
-                                                .colour = -1};
+    for (size_t c = 0; c < THEORIES; c++) { /* entries of the key; a single point with its mark */
+        if (!d->has_theory[c])
+            continue;
+        s[count] = s[1 + c];
+        s[count].label = d->t->theory[c].label;
+        s[count].colour = -1;
+        s[count].count = s[count].count == 1;
+        count++;
+    }
     *panel = (struct report_panel){
         .y_label = d->t->output_label, .y_max = 1.1 * highest, .series_count = count, .series = s};
     const char *caption = arena_text(
