@@ -170,7 +170,7 @@ static const char style[] =
     ".case[hidden],.matrix tr[hidden]{display:revert}.body[hidden]{display:block}"
     "*{print-color-adjust:exact;-webkit-print-color-adjust:exact}"
     "pre{white-space:pre-wrap;overflow-wrap:anywhere}.scroll{overflow:visible}"
-    ".data th,.data td{white-space:normal;overflow-wrap:anywhere}"
+    ".data th,.data td{white-space:normal}"
     ".plot svg,.sequence img{min-width:0}figure,.trouble,tr,h2,h3,h4{break-inside:avoid}"
     "h2,h3,h4{break-after:avoid}table{font-size:8pt}th,td{padding:.25rem .4rem}.rows tbody "
     "th{min-width:0;width:auto}"
