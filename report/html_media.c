@@ -153,7 +153,10 @@ static void put_drawing(struct page *p, const struct report_figure *f, const str
         return;
     }
     fwrite(svg->text, 1, (size_t)(body - svg->text), p->out);
-    fprintf(p->out, "</desc>\n<use xlink:href=\"#figure%zu-svg\"/></svg>\n", drawn);
+    fprintf(p->out,
+            "</desc>\n<use xlink:href=\"#figure%zu-svg\"/></svg>\n"
+            "<p><a href=\"#figure%zu-svg\">As in the gallery</a></p>\n",
+            drawn, drawn);
 }
 
 /* Of a case, with its id, or of none (c NULL). */

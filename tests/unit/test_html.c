@@ -263,6 +263,7 @@ START_TEST(a_figure_of_the_gallery_is_drawn_once) {
     ck_assert_uint_eq(times(text, "<svg id=\""), figures + 2);
     ck_assert_uint_eq(times(text, "<use xlink:href=\"#figure1-svg\"/></svg>"), 2);
     ck_assert_uint_eq(times(text, "<svg id=\"figure1-svg\""), 1);
+    ck_assert_uint_eq(times(text, "<a href=\"#figure1-svg\">As in the gallery</a>"), 2);
     ck_assert_uint_lt(strlen(text), without + 4000);
     is_valid(folder);
     free(text);
