@@ -369,9 +369,10 @@ static enum status draw_trend(struct drawing *d, struct figure_output *out, stru
         d->has_ensemble ? "one fit to all seeds, with the standard error that the fit gives"
                         : "means over seeds with their standard error, or one seed with the error "
                           "of its own fit",
-        d->has_theory[0] || d->has_theory[1]
-            ? " Lines join what theory says at each point, with the inputs that the checks use."
-            : "");
+        d->has_theory[0] || d->has_theory[1] ? " Lines, or crosses at a single point: what theory "
+                                               "says, with the inputs that the checks "
+                                               "use."
+                                             : "");
     if (!caption)
         return no_memory(fault);
     return add(d, d->in->wanted->recipe, d->t->output_title, caption, d->t->output_title,
