@@ -113,22 +113,30 @@ static double number_or(const struct plan_text_input *in, const char *name, doub
     return value > 0 ? value : standard;
 }
 
+/* Reals that one sample of a dataset holds. */
+static double reals_of(const struct plan_text_input *in, const char *dataset) {
+    if (strncmp(dataset, "particles/spheres/", 18) == 0)
+        return 3 * number_or(in, "particles", 10000);
+    if (strncmp(dataset, "particles/", 10) == 0)
+        return 2 * number_or(in, "grains", 18104);
+    if (strncmp(dataset, "profiles/", 9) == 0)
+        return number_or(in, "height_R", 240) / number_or(in, "profile_bin_R", 1);
+    if (strncmp(dataset, "fields/", 7) == 0)
+        return (strstr(dataset, "velocity") != NULL ? 2 : 1) * (number_or(in, "width_l", 60) + 1) *
+               (number_or(in, "height_l", 92) + 1);
+    return 3;
+}
+
 double plan_text_bytes(const struct plan_text_input *in) {
     const struct case_tier *t = in->tier;
-    double grains = number_or(in, "grains", 18104);
-    double sites = (number_or(in, "width_l", 60) + 1) * (number_or(in, "height_l", 92) + 1);
     double frames = (double)t->samples.count;
     double particle_frames =
         t->particle_samples.count > 0 ? (double)t->particle_samples.count : frames;
     double reals = 8192; /* groups, attributes, chunk tables */
     for (size_t i = 0; i < in->file->dataset_count; i++) {
         const char *name = in->file->dataset[i];
-        if (strncmp(name, "particles/", 10) == 0)
-            reals += 2 * grains * particle_frames;
-        else if (strncmp(name, "fields/", 7) == 0)
-            reals += (strstr(name, "velocity") != NULL ? 2 : 1) * sites * frames;
-        else
-            reals += 3 * frames;
+        bool particles = strncmp(name, "particles/", 10) == 0;
+        reals += reals_of(in, name) * (particles ? particle_frames : frames);
     }
     return 8 * reals;
 }

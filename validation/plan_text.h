@@ -23,8 +23,9 @@ const char *plan_text_identity(struct arena *a, const struct case_file *file,
                                const struct case_tier *tier, const struct case_parameter *parameter,
                                size_t count, const char *start_id);
 
-/* Size of the result file in bytes: sizes from the parameters grains, width_l and
- * height_l where the case has them, else those of the largest published run. */
+/* Size of the result file in bytes: sizes from the parameters grains, width_l, height_l,
+ * particles, height_R and profile_bin_R where the case has them, else those of the
+ * largest published run. */
 double plan_text_bytes(const struct plan_text_input *in);
 
 #endif

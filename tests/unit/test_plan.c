@@ -125,6 +125,26 @@ static const char heir[] =
     "start: {case: fake/steady, point: {start: random}}\n"
     "tiers: {smoke: {}}\n";
 
+START_TEST(many_spheres_make_a_large_file) {
+    static const char kept[] =
+        "parameters: {particles: 123457, height_R: 230, profile_bin_R: 0.5}\n"
+        "samples: {from: 0, to: 0.7, every: 0.1}\n"
+        "particle_samples: [0.3, 0.5, 0.7]\n"
+        "also_write: [particles/spheres/position, "
+        "profiles/packing_fraction]\n"
+        "seeds: {first: 7}\ntiers: {smoke: {}}\n";
+    struct fault fault;
+    struct case_file *c = load("fake/many", kept);
+    struct plan *p = plan_of(&c, 1, 1, 0, &fault);
+    unit_ok(fault.status, &fault);
+    double written = 3 * 3 * 8 * 123457.0 + 8 * 8 * 460.0;
+    ck_assert_double_gt(p->run[0]->bytes, written);
+    ck_assert_double_lt(p->run[0]->bytes, 1.02 * written);
+    plan_free(p);
+    case_free(c);
+}
+END_TEST
+
 START_TEST(a_start_is_planned_first_and_shared) {
     struct fault fault;
     struct case_file *all[] = {load("fake/heir", heir), load("fake/steady", steady)};
@@ -226,6 +246,7 @@ int main(void) {
     const TTest *const tests[] = {points_and_seeds_are_expanded_in_order,
                                   a_run_file_is_read_back_with_every_value,
                                   only_the_meaning_names_a_run,
+                                  many_spheres_make_a_large_file,
                                   a_start_is_planned_first_and_shared,
                                   a_start_that_does_not_fit_is_refused,
                                   a_start_has_the_same_value_as_its_run,
