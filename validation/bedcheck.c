@@ -217,15 +217,22 @@ static error_t parse(int key, char *text, struct argp_state *state) {
         "references", KEY_REFERENCES, "DIR", 0,                                                    \
             "Folder of stored references (default with our own cases: ours)", 0                    \
     }
+#define OPTION_REFERENCES_OF_RUN                                                                   \
+    {                                                                                              \
+        "references", KEY_REFERENCES, "DIR", 0,                                                    \
+            "Folder of stored references (default: the one that the run named)", 0                 \
+    }
 #define OPTION_TIER                                                                                \
     { "tier", KEY_TIER, "TIER", 0, "smoke (default), paper or large", 0 }
+#define OPTION_ANY_TIER                                                                            \
+    { "tier", KEY_TIER, "TIER", 0, "smoke, paper or large (default: all)", 0 }
 #define OPTION_TAG                                                                                 \
     { "tag", KEY_TAG, "TAG", 0, "Only cases with this tag (may be repeated)", 0 }
 
 static const struct argp_option list_options[] = {
-    OPTION_CASES, OPTION_REFERENCES, OPTION_TIER, OPTION_TAG, {0}};
-static const struct argp_option show_options[] = {OPTION_CASES, OPTION_TIER, {0}};
-static const struct argp_option check_options[] = {OPTION_CASES, OPTION_REFERENCES, {0}};
+    OPTION_CASES, OPTION_REFERENCES, OPTION_ANY_TIER, OPTION_TAG, {0}};
+static const struct argp_option show_options[] = {OPTION_CASES, OPTION_ANY_TIER, {0}};
+static const struct argp_option check_options[] = {OPTION_CASES, OPTION_REFERENCES_OF_RUN, {0}};
 static const struct argp_option calibrate_options[] = {
     OPTION_CASES,
     OPTION_REFERENCES,
@@ -240,7 +247,7 @@ static const struct argp_option calibrate_options[] = {
     {0}};
 static const struct argp_option accept_options[] = {
     OPTION_CASES,
-    OPTION_REFERENCES,
+    OPTION_REFERENCES_OF_RUN,
     {"case", KEY_CASE, "CASE|GLOB", 0, "Accept this case (may be repeated)", 0},
     {"all-changed", KEY_ALL_CHANGED, 0, 0, "Accept every case of DIR whose references change", 0},
     {"claims", KEY_CLAIMS, 0, 0, "Accept the verdicts of the papers' claims, and no numbers", 0},
@@ -252,7 +259,7 @@ static const struct argp_option no_options[] = {{0}};
 static const struct argp_option clean_options[] = {
     {"stale", KEY_STALE, 0, 0, "Only results of other solver builds than the last run's", 0}, {0}};
 static const struct argp_option compare_options[] = {
-    OPTION_REFERENCES,
+    OPTION_REFERENCES_OF_RUN,
     {"json", KEY_JSON, 0, 0, "For programs", 0},
     {"markdown", KEY_MARKDOWN, 0, 0, "For a pull request", 0},
     {"level", KEY_LEVEL, "L", 0,

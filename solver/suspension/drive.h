@@ -15,7 +15,7 @@
  * f_dr only.  phi_i is taken at .74 at most, the densest packing: a thin layer on a
  * wall can count more.  Both laws act along z only, as FZ's do.
  *
- * Source:     Fiege & Zippelius (2013), "FZ".
+ * Source:     Fiege & Zippelius (2014), "FZ".
  * Leaves out: the density dependence of the drag in x and y (FZ, Section III).
  * Checked by: tests/unit/test_suspension.c, suspension/verification-terminal-velocity.
  */

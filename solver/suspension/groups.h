@@ -13,7 +13,7 @@
  * sphere by its diameter over kT.  With the remaining ratios (Delta/R, box/R, N,
  * eps, n, phibar(t), guard, times) equal groups mean the same run in other units.
  *
- * Source:     Fiege & Zippelius (2013), "FZ"; the ratio: docs/theory.md.
+ * Source:     Fiege & Zippelius (2014), "FZ"; the ratio: docs/theory.md.
  * Checked by: tests/unit/test_suspension_parameters.c.
  */
 #ifndef SUSPENSION_GROUPS_H

@@ -10,7 +10,7 @@
  * kick times exp(-gamma/f_dr) less collisions.  Every other phase reads another
  * temperature: one that swings within each period is the price of that schedule.
  *
- * Source:     kicks of the mean frequency f_dr: Fiege & Zippelius (2013), Section III;
+ * Source:     kicks of the mean frequency f_dr: Fiege & Zippelius (2014), Section III;
  *             how they are spaced is not stated there.
  * Checked by: tests/unit/test_kicks.c.
  */

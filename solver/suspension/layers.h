@@ -10,7 +10,7 @@
  * It is off by how centres lie within the two bins at the layer's edges and by how
  * they moved since; both are measured at each sample (observables/layer_fraction_error).
  *
- * Source: Fiege & Zippelius (2013), Section III ("we count the number of particles
+ * Source: Fiege & Zippelius (2014), Section III ("we count the number of particles
  *         in a layer"); the truncation at walls is not stated there.
  * Leaves out: any structure across the layer.
  * Checked by: tests/unit/test_layers.c, suspension/verification-terminal-velocity.

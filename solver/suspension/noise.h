@@ -16,7 +16,7 @@
  *               collisions at gamma0
  *   given       a variance; none: 0
  *
- * Source:     Fiege & Zippelius (2013), Section III; the coefficient: docs/theory.md.
+ * Source:     Fiege & Zippelius (2014), Section III; the coefficient: docs/theory.md.
  * Leaves out: velocity correlations (recollisions), so T is off where (1) is.
  * Checked by: tests/unit/test_suspension_parameters.c, test_suspension.c.
  */

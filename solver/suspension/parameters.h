@@ -9,7 +9,7 @@
  * Lengths are multiples of radius_m and nothing else sets a scale, so that a run
  * whose units are changed by powers of two gives the same bits.
  *
- * Source: Fiege & Zippelius, "Dynamics of driven granular suspensions" (2013),
+ * Source: Fiege & Zippelius, "Dynamics of driven granular suspensions" (2014),
  *         "FZ" below.
  */
 #ifndef SUSPENSION_PARAMETERS_H

@@ -11,7 +11,7 @@
  * same sums over all slabs: about the slabs' own velocities, so that slugs that move
  * up and down do not count as heat.
  *
- * Source:     Fiege & Zippelius (2013), "FZ".
+ * Source:     Fiege & Zippelius (2014), "FZ".
  * Leaves out: shear within a slab, which counts as heat.
  * Checked by: tests/unit/test_bonds.c.
  */

@@ -14,7 +14,7 @@
  *            the height h = N V/(phibar A) where phibar fills it: a fluid in equilibrium
  *            without gravity, layered at floor and lid.  Then the lid is lifted.  Centres
  *            keep a radius from both, so phi(z) of centres is phibar h/(h - 2R) between.
- *            Source: Fiege & Zippelius (2013), Section IV A.
+ *            Source: Fiege & Zippelius (2014), Section IV A.
  * from-file  The last particle sample of an earlier suspension result, whose spheres
  *            must be as many and as large; the box may be another.
  * list       Centres and velocities as given.

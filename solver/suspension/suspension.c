@@ -351,7 +351,7 @@ static const char *notice(const void *state) {
 const struct model suspension_model = {
     .name = "suspension",
     .title = "Driven hard spheres in a fluid, from event to event, three dimensions",
-    .source = "Fiege & Zippelius, Dynamics of driven granular suspensions (2013)",
+    .source = "Fiege & Zippelius, Dynamics of driven granular suspensions (2014)",
     .time_unit = "s",
     .length_unit = "m",
     .parameters = suspension_parameter_table,

@@ -16,7 +16,7 @@
  * between two kicks decays as exp(-2 gamma t) and loses what the engine's collisions
  * dissipate, taken as half at the beginning and half at the end.
  *
- * Source:     Fiege & Zippelius, "Dynamics of driven granular suspensions" (2013).
+ * Source:     Fiege & Zippelius, "Dynamics of driven granular suspensions" (2014).
  * Leaves out: what docs/theory.md, "Suspension", lists.
  * Checked by: tests/unit/test_suspension*.c, suspension/verification-*.
  */

@@ -1,12 +1,17 @@
 /* test_pressure_wave.c -- against the kinematic wave without heat, against an integrated balance of
- * forces at rest. */
+ * forces at rest, and while it moves against lines: central differences, advanced by Runge-Kutta-
+ * Fehlberg steps, with neither slopes upstream nor implicit pressure. */
 #include "tests/unit/unit.h"
 #include "validation/hydrostatic.h"
 #include "validation/kinematic_wave.h"
 #include "validation/pressure_wave.h"
+#include "validation/relaxation_fit.h"
 #include "validation/sphere_laws.h"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
 #include <math.h>
+#include <string.h>
 
 static const double R = 6e-4;
 
@@ -169,6 +174,124 @@ START_TEST(cells_of_half_a_radius_are_enough) {
 }
 END_TEST
 
+/* -- lines --------------------------------------------------------------------------- */
+
+enum { CELLS = 240, SHOTS = 60 };
+
+/* y: phi of cells of height R, then, with inertia, the flux through the face below each. */
+struct lines {
+    struct bed_change change;
+    double phibar;
+};
+
+static double pressure_of(const struct bed_change *c, double phi) {
+    double z = (1 + phi + phi * phi - phi * phi * phi) / pow(1 - phi, 3);
+    return c->heat_m2_per_s2 * phi * (1 + (1 + c->restitution) / 2 * (z - 1));
+}
+
+static int slopes(double time, const double *y, double *slope, void *lines) {
+    (void)time;
+    const struct lines *l = lines;
+    const struct bed_change *c = &l->change;
+    double below[CELLS + 1] = {0}, flux[CELLS + 1] = {0};
+    int half = (int)(c->layer_m / R / 2 + 0.5);
+    for (int i = 0; i < CELLS; i++)
+        below[i + 1] = below[i] + y[i];
+    for (int f = 1; f < CELLS; f++) {
+        int low = f > half ? f - half : 0, high = f + half < CELLS ? f + half : CELLS;
+        double mean = (below[high] - below[low]) / (f + half - low);
+        double mobility = bed_change_mobility(c, mean, l->phibar);
+        flux[f] = (y[f - 1] + y[f]) / 2 * bed_change_speed(c, mean, l->phibar) -
+                  mobility * (pressure_of(c, y[f]) - pressure_of(c, y[f - 1])) / R;
+        if (c->inertia) {
+            slope[CELLS + f] = (flux[f] - y[CELLS + f]) / mobility;
+            flux[f] = y[CELLS + f];
+        }
+    }
+    slope[CELLS] = 0;
+    for (int i = 0; i < CELLS; i++)
+        slope[i] = (flux[i] - flux[i + 1]) / R;
+    return GSL_SUCCESS;
+}
+
+static const double FORM = 0.09, EVERY = 0.025; /* (s) before the change, between shots */
+
+/* Profiles at the change and every EVERY after it: shot[SHOTS][CELLS]. */
+static void shoot_lines(const struct bed_change *c, double (*shot)[CELLS]) {
+    struct lines l = {*c, c->before};
+    size_t count = c->inertia ? 2 * CELLS : CELLS;
+    gsl_odeiv2_system system = {slopes, NULL, count, &l};
+    gsl_odeiv2_driver *d =
+        gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rkf45, 1e-5, 1e-7, 0);
+    double y[2 * CELLS] = {0}, time = 0;
+    for (int i = 0; i < CELLS; i++)
+        y[i] = c->before * fmax(0, fmin(1, c->load_m / c->before / R - i));
+    ck_assert_int_eq(gsl_odeiv2_driver_apply(d, &time, FORM, y), GSL_SUCCESS);
+    l.phibar = c->after;
+    gsl_odeiv2_driver_reset(d);
+    for (int k = 0; k < SHOTS; k++) {
+        if (k > 0)
+            ck_assert_int_eq(gsl_odeiv2_driver_apply(d, &time, FORM + k * EVERY, y), GSL_SUCCESS);
+        memcpy(shot[k], y, sizeof shot[k]);
+    }
+    gsl_odeiv2_driver_free(d);
+}
+
+static void shoot_wave(const struct bed_change *c, double (*shot)[CELLS]) {
+    struct fault fault = FAULT_NONE;
+    struct pressure_wave *w = wave_of(c, 0.25);
+    unit_ok(pressure_wave_advance(w, FORM, &fault), &fault);
+    pressure_wave_change(w);
+    for (int k = 0; k < SHOTS; k++) {
+        unit_ok(pressure_wave_advance(w, FORM + k * EVERY, &fault), &fault);
+        pressure_wave_profile(w, R, shot[k], CELLS);
+    }
+    pressure_wave_free(w);
+}
+
+static struct relaxation_fit fit_of(const double (*shot)[CELLS]) {
+    struct fault fault = FAULT_NONE;
+    struct relaxation_fit fit;
+    double square[SHOTS], length[SHOTS], time[SHOTS], none;
+    unit_ok(relaxation_square(shot[0], SHOTS, CELLS, 1, 1, square, &none, &fault), &fault);
+    for (int k = 0; k < SHOTS; k++) {
+        time[k] = k * EVERY;
+        length[k] = relaxation_length(square[k]);
+    }
+    unit_ok(relaxation_fit(time + 1, length + 1, SHOTS - 1, &fit, &fault), &fault);
+    return fit;
+}
+
+START_TEST(profiles_and_rates_of_a_change_are_those_of_lines) {
+    static double wave[SHOTS][CELLS], line[SHOTS][CELLS];
+    const struct {
+        double before, after;
+        bool inertia, full;
+        double apart; /* share of the solid; more where a top runs ahead, a few cells wide */
+    } step[] = {{0.35, 0.3, true, false, 0.004},
+                {0.3, 0.55, false, false, 0.004},
+                {0.55, 0.3, true, false, 0.03},
+                {0.47, 0.33, false, true, 0.004}};
+    for (size_t i = 0; i < sizeof step / sizeof *step; i++) {
+        struct bed_change c = bed(step[i].before, step[i].after, 1, 10);
+        c.restitution = 0.7;
+        c.inertia = step[i].inertia;
+        c.full = step[i].full;
+        shoot_wave(&c, wave);
+        shoot_lines(&c, line);
+        for (int k = 0; k < SHOTS; k++) {
+            double apart = 0;
+            for (int j = 0; j < CELLS; j++)
+                apart += fabs(wave[k][j] - line[k][j]) * R / c.load_m;
+            ck_assert_double_lt(apart, step[i].apart);
+        }
+        struct relaxation_fit ours = fit_of(wave), theirs = fit_of(line);
+        ck_assert_double_eq_tol(ours.rate_per_s, theirs.rate_per_s, 0.006 * theirs.rate_per_s);
+        ck_assert_double_eq_tol(ours.plateau, theirs.plateau, 0.003 * theirs.plateau);
+    }
+}
+END_TEST
+
 START_TEST(impossible_beds_are_refused) {
     struct fault fault = FAULT_NONE;
     struct bed_change c = bed(0.35, 0.3, 1, 10);
@@ -186,6 +309,7 @@ int main(void) {
                                   long_after_a_change_it_is_the_hydrostatic_profile,
                                   with_inertia_a_bed_starts_as_its_friction_lets_it,
                                   cells_of_half_a_radius_are_enough,
+                                  profiles_and_rates_of_a_change_are_those_of_lines,
                                   impossible_beds_are_refused,
                                   NULL};
     return unit_run("pressure_wave", tests);
