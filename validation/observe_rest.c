@@ -7,7 +7,8 @@
  *
  * bed-velocities: of the spheres of the bulk, by component, about the mean of each sample: excess
  * kurtosis averaged over samples, and the last sample's distance from a normal distribution of its
- * own width (normality.h).  x and y count as one sample.
+ * own width (normality.h).  x and y count as one sample.  Curve: how many are as fast as so many
+ * root mean squares, over what a normal distribution has, all samples together.
  *
  * bed-diffusion: mean-square displacement along x and y of spheres that are in the bulk when
  * the lag begins, over all pairs of samples a lag apart; D is half the slope over the lags.
@@ -22,6 +23,7 @@
 #include "validation/recipes.h"
 #include "validation/sphere_profile.h"
 
+#include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <math.h>
 #include <stdlib.h>
@@ -193,9 +195,38 @@ static double variance_of(const double *u, size_t n, double *kurtosis) {
     return second;
 }
 
+/* Numbers of |u| in bins of BIN root mean squares: in[0 .. BINS-1], and all of them. */
+enum { BINS = 16 };
+static const double BIN = 0.25;
+struct histogram {
+    double in[BINS], all;
+};
+
+static void count(struct histogram *h, const double *u, size_t n, double second) {
+    h->all += (double)n;
+    for (size_t i = 0; i < n; i++) {
+        double bin = fabs(u[i]) / sqrt(second) / BIN;
+        if (bin < BINS)
+            h->in[(size_t)bin]++;
+    }
+}
+
+static enum status distribution(const struct histogram *h, const char *label,
+                                struct measurement *out, struct fault *fault) {
+    double x[BINS], y[BINS];
+    for (size_t k = 0; k < BINS; k++) {
+        double low = (double)k * BIN;
+        x[k] = low + BIN / 2;
+        y[k] =
+            h->in[k] / h->all / (2 * (gsl_cdf_ugaussian_Q(low) - gsl_cdf_ugaussian_Q(low + BIN)));
+    }
+    return measurement_add_curve(out, "distribution", label, x, y, BINS, fault);
+}
+
 static enum status measure_velocities(struct run_view *v, const double *settings,
                                       struct measurement *out, struct fault *fault) {
     static const size_t axis[2][2] = {{0, 1}, {2, 2}};
+    struct histogram speeds[2] = {{{0}, 0}, {{0}, 0}};
     struct bed b = {0};
     const struct series *x, *u;
     size_t first = 0, last = 0;
@@ -220,6 +251,7 @@ static enum status measure_velocities(struct run_view *v, const double *settings
             size_t n = take(&b, x, u, f, axis[c][0], axis[c][1], sample);
             double second = variance_of(sample, n, &kurtosis);
             out->value[KURTOSIS_XY + c] += kurtosis / (double)(last - first + 1);
+            count(&speeds[c], sample, n, second);
             if (f < last)
                 continue;
             out->value[DISTANCE_XY + c] = normality_distance(sample, n, sqrt(second));
@@ -228,9 +260,10 @@ static enum status measure_velocities(struct run_view *v, const double *settings
         }
     free(sample);
     if (!(out->value[USED] >= 100))
-        status = fault_set(fault, STATUS_BAD_INPUT, "%s: %g spheres in the bulk are too few",
-                           run_view_path(v), out->value[USED]);
-    return status;
+        return fault_set(fault, STATUS_BAD_INPUT, "%s: %g spheres in the bulk are too few",
+                         run_view_path(v), out->value[USED]);
+    status = distribution(&speeds[0], "across", out, fault);
+    return status ? status : distribution(&speeds[1], "upwards", out, fault);
 }
 
 /* -- bed-diffusion ---------------------------------------------------------------------- */
@@ -352,6 +385,7 @@ static enum status measure_diffusion(struct run_view *v, const double *settings,
 static const char *const TEMPERATURE_DATASETS[] = {
     "profiles/packing_fraction", "profiles/temperature_xy", "profiles/temperature_zz", NULL};
 static const char *const TEMPERATURE_CURVES[] = {"temperature-xy", "temperature-zz", NULL};
+static const char *const VELOCITY_CURVES[] = {"distribution", NULL};
 static const char *const VELOCITY_DATASETS[] = {"particles/spheres/position",
                                                 "particles/spheres/velocity", NULL};
 static const char *const DIFFUSION_DATASETS[] = {
@@ -391,6 +425,7 @@ const struct recipe recipe_bed_velocities = {
                {"probability_xy", "1", "of a D as large or larger"},
                {"probability_z", "1", "of a D as large or larger"},
                {"spheres", "1", "spheres of the bulk in the last sample"}},
+    .curves = VELOCITY_CURVES,
     .measure = measure_velocities,
 };
 

@@ -61,6 +61,16 @@ START_TEST(velocities_are_told_apart_by_component) {
     ck_assert_double_gt(fake_value(&m, r, "probability_xy"), 0.01);
     ck_assert_double_lt(fake_value(&m, r, "probability_z"), 0.01);
     ck_assert_double_lt(fake_value(&m, r, "distance_xy"), fake_value(&m, r, "distance_z"));
+    ck_assert_uint_eq(m.curve_count, 2);
+    for (int k = 0; k < 16; k++) { /* 25200 normal numbers, 12600 Laplace ones of scale 1/sqrt 2 */
+        double x = m.curve[0].x[k], low = x - 0.125, high = x + 0.125;
+        double normal = gsl_cdf_gaussian_P(high, 1) - gsl_cdf_gaussian_P(low, 1);
+        double laplace = gsl_cdf_laplace_P(high, M_SQRT1_2) - gsl_cdf_laplace_P(low, M_SQRT1_2);
+        double across = 5 / sqrt(2 * n * FRAMES * 2 * normal);
+        ck_assert_double_eq_tol(m.curve[0].y[k], 1, fmax(across, 0.02));
+        double upwards = laplace / normal, noise = 5 / sqrt(n * FRAMES * 2 * laplace);
+        ck_assert_double_eq_tol(m.curve[1].y[k], upwards, fmax(noise, 0.1) * upwards);
+    }
     measurement_free(&m);
 }
 END_TEST
