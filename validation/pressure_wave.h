@@ -20,8 +20,9 @@
  * conserved to round-off and a state of rest is that of the balance between cells.
  *
  * Source:     Fiege & Zippelius, Eqs. 1 and 9; Carnahan & Starling (sphere_laws.h); docs/theory.md,
- * S7. Leaves out: d(j^2/phi)/dz, viscosity, changes of temperature, crystals, the layers of spheres
- *             at the floor.
+ *             S7.
+ * Leaves out: d(j^2/phi)/dz, viscosity, changes of temperature, crystals, the layers of spheres
+ *             at floor and sides (hydrostatic.h has those of the sides).
  * Checked by: tests/unit/test_pressure_wave.c.
  */
 #ifndef VALIDATION_PRESSURE_WAVE_H

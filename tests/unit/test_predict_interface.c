@@ -37,6 +37,38 @@ START_TEST(beds_go_as_their_inputs) {
 }
 END_TEST
 
+/* The table of docs/theory.md S6 and the ratios that suspension/interface-width expects. */
+START_TEST(calibrated_beds_are_those_of_the_theory) {
+    static const double sigma[] = {7.40, 7.28, 7.31, 7.44, 7.65, 7.95};
+    static const double thinner[] = {1.024, 1.027, 1.031, 1.034, 1.037, 1.040};
+    for (int i = 0; i < 6; i++) {
+        double in[BED_INPUTS + 1] = {0.30 + 0.05 * i,
+                                     4.65,
+                                     9.81,
+                                     0.6,
+                                     0.284,
+                                     2e-9,
+                                     2.84,
+                                     6e-4,
+                                     2.262e-6,
+                                     10,
+                                     1e4,
+                                     30,
+                                     30,
+                                     5,
+                                     0.7,
+                                     1,
+                                     10,
+                                     0,
+                                     0};
+        double thick = at("hydrostatic-width", in);
+        ck_assert_double_eq_tol(thick, sigma[i], 0.02);
+        in[BED_LAYER_R] = 6;
+        ck_assert_double_eq_tol(at("hydrostatic-width", in) / thick, thinner[i], 0.0015);
+    }
+}
+END_TEST
+
 /* Kicks give f_dr m s^2 at all packing fractions: drag and collisions at t must take as much. */
 START_TEST(temperature_balances_the_powers) {
     double t = at("hydrostatic-temperature", BED), eps = 0.73, taken[2];
@@ -71,7 +103,8 @@ START_TEST(diffusion_has_both_its_limits) {
 END_TEST
 
 int main(void) {
-    const TTest *const tests[] = {beds_go_as_their_inputs, temperature_balances_the_powers,
-                                  diffusion_has_both_its_limits, NULL};
+    const TTest *const tests[] = {beds_go_as_their_inputs, calibrated_beds_are_those_of_the_theory,
+                                  temperature_balances_the_powers, diffusion_has_both_its_limits,
+                                  NULL};
     return unit_run("predict_interface", tests);
 }
