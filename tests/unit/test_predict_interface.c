@@ -42,25 +42,23 @@ START_TEST(calibrated_beds_are_those_of_the_theory) {
     static const double sigma[] = {7.40, 7.28, 7.31, 7.44, 7.65, 7.95};
     static const double thinner[] = {1.024, 1.027, 1.031, 1.034, 1.037, 1.040};
     for (int i = 0; i < 6; i++) {
-        double in[BED_INPUTS + 1] = {0.30 + 0.05 * i,
-                                     4.65,
-                                     9.81,
-                                     0.6,
-                                     0.284,
-                                     2e-9,
-                                     2.84,
-                                     6e-4,
-                                     2.262e-6,
-                                     10,
-                                     1e4,
-                                     30,
-                                     30,
-                                     5,
-                                     0.7,
-                                     1,
-                                     10,
-                                     0,
-                                     0};
+        double in[BED_INPUTS + 1] = {[BED_PHIBAR] = 0.30 + 0.05 * i,
+                                     [BED_EXPONENT] = 4.65,
+                                     [BED_GRAVITY] = 9.81,
+                                     [BED_CONTRAST] = 0.6,
+                                     [BED_DRIVE_SCALE] = 0.284,
+                                     [BED_THERMAL_J] = 2e-9,
+                                     [BED_TEMPERATURE_SCALE] = 2.84,
+                                     [BED_RADIUS_M] = 6e-4,
+                                     [BED_MASS_KG] = 2.262e-6,
+                                     [BED_LAYER_R] = 10,
+                                     [BED_PARTICLES] = 1e4,
+                                     [BED_WIDTH_X_R] = 30,
+                                     [BED_WIDTH_Y_R] = 30,
+                                     [BED_DRAG] = 5,
+                                     [BED_RESTITUTION] = 0.7,
+                                     [BED_WALLS] = 1,
+                                     [BED_ABOVE_R] = 10};
         double thick = at("hydrostatic-width", in);
         ck_assert_double_eq_tol(thick, sigma[i], 0.02);
         in[BED_LAYER_R] = 6;
