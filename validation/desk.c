@@ -103,7 +103,7 @@ static void tell_text(FILE *out, const char *head, const char *text) {
     }
 }
 
-static void tell_row(FILE *out, const struct report_row *r) {
+static void tell_row(FILE *out, const struct report_row *r, bool with_command) {
     static const char *const word[] = {"pass", "fail", "open", "known"};
     fprintf(out, "  %-5s %s [%s]: ", word[r->verdict], r->check, r->point);
     if (isfinite(r->measured))
@@ -116,9 +116,19 @@ static void tell_row(FILE *out, const struct report_row *r) {
     else if (isfinite(r->measured))
         fputs("; ", out);
     fprintf(out, "%s\n", r->reason);
-    fprintf(out, "        repeat: %s\n", r->repeat);
+    if (with_command)
+        fprintf(out, "        repeat: %s\n", r->repeat);
     if (r->log_end != NULL && *r->log_end != '\0')
         tell_text(out, "log: ", r->log_end);
+}
+
+/* What repeats row i repeats a row above it as well, which has told it. */
+static bool was_told(const struct rows *rows, size_t i) {
+    for (size_t k = 0; k < i; k++)
+        if (rows->row[k].verdict != VERDICT_PASS &&
+            strcmp(rows->row[k].repeat, rows->row[i].repeat) == 0)
+            return true;
+    return false;
 }
 
 static enum verdict worse(enum verdict a, enum verdict b) {
@@ -161,7 +171,7 @@ static enum verdict tell_case(const struct desk *d, size_t index) {
     fprintf(out, "  (%.1f s of solver)\n", seconds);
     for (size_t i = 0; i < rows->count; i++) {
         if (rows->row[i].verdict != VERDICT_PASS)
-            tell_row(out, &rows->row[i]);
+            tell_row(out, &rows->row[i], !was_told(rows, i));
     }
     fflush(out);
     return v;
@@ -240,7 +250,7 @@ static void tell_claims(const struct desk *d, const struct report *r) {
         for (size_t k = 0; k < r->cases[i].row_count; k++) {
             const struct report_row *row = &r->cases[i].row[k];
             if (strcmp(row->kind, "claim") == 0 && row->verdict != VERDICT_PASS)
-                tell_row(out, row);
+                tell_row(out, row, true);
         }
     }
     claim_tally(r->ledger, count);

@@ -116,12 +116,12 @@ enum status figure_bed_open(const struct measured_run *run, struct figure_bed *o
     return STATUS_OK;
 }
 
-static double slack_of(const struct series *s) {
+double figure_bed_slack(const struct series *s) {
     return 1e-6 * fabs(s->time[s->frames - 1]);
 }
 
 bool figure_bed_reaches(const struct figure_bed *b, const struct series *s, double time_s) {
-    return s->frames > 0 && b->from_s + time_s <= s->time[s->frames - 1] + slack_of(s);
+    return s->frames > 0 && b->from_s + time_s <= s->time[s->frames - 1] + figure_bed_slack(s);
 }
 
 enum status figure_bed_frame(const struct figure_bed *b, const char *name, const struct series *s,
@@ -130,7 +130,7 @@ enum status figure_bed_frame(const struct figure_bed *b, const char *name, const
     for (size_t f = 1; f < s->frames; f++)
         if (fabs(s->time[f] - b->from_s - time_s) < fabs(s->time[best] - b->from_s - time_s))
             best = f;
-    if (s->frames == 0 || fabs(s->time[best] - b->from_s - time_s) > slack_of(s))
+    if (s->frames == 0 || fabs(s->time[best] - b->from_s - time_s) > figure_bed_slack(s))
         return fault_set(fault, STATUS_NOT_FOUND, "%s: %s has no sample at %g s%s",
                          run_view_path(b->view), name, time_s,
                          b->changes ? " after the change" : "");

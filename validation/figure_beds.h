@@ -41,6 +41,8 @@ struct figure_bed {
 enum status figure_bed_open(const struct measured_run *run, struct figure_bed *out,
                             struct fault *fault);
 
+/* A sample is at a time (s) if it is no farther from it. */
+double figure_bed_slack(const struct series *s);
 /* Does a series go on to a time since from_s?  Its frame there; none is a fault. */
 bool figure_bed_reaches(const struct figure_bed *b, const struct series *s, double time_s);
 enum status figure_bed_frame(const struct figure_bed *b, const char *name, const struct series *s,

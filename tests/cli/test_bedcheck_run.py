@@ -49,6 +49,13 @@ def test_wrong_data_fail_and_the_report_is_marked(bench, setting, red):
     assert "MODIFIED" in (bench.out / "report" / "index.html").read_text(encoding="utf-8")
 
 
+def test_what_repeats_several_rows_is_told_once(bench):
+    done = bench.run("fake/steady", "--set", "value=1.9")
+    commands = [line for line in done.stdout.splitlines() if "repeat: " in line]
+    failed = [key for key, verdict in bench.verdicts().items() if verdict != "pass"]
+    assert len(commands) == len(set(commands)) < len(failed)
+
+
 def test_the_wrong_order_fails(bench):
     bench.spoil("fake/order", "expect: 2\n", "expect: 1\n")
     assert bench.run().returncode == 1
