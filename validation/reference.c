@@ -2,16 +2,29 @@
 #include "validation/reference.h"
 
 #include "common/file.h"
-#include "common/schema.h"
+#include "validation/table.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { COLUMNS = 12, MAX_BYTES = 1 << 26, HEX_DIGITS = 64, COMMIT_DIGITS = 40, MEANING_DIGITS = 8 };
-enum { TIER, POINT, OBSERVABLE, ORIGIN, VALUE, DEVIATION, SEEDS, MEANING, COMMIT, KEY, DATE, WHY };
+enum { MAX_BYTES = 1 << 26, HEX_DIGITS = 64, COMMIT_DIGITS = 40, MEANING_DIGITS = 8 };
+enum {
+    TIER,
+    POINT,
+    OBSERVABLE,
+    ORIGIN,
+    VALUE,
+    DEVIATION,
+    SEEDS,
+    MEANING,
+    COMMIT,
+    KEY,
+    DATE,
+    WHY,
+    COLUMNS
+};
 
 static const char *const column_name[COLUMNS] = {"tier",   "point",      "observable", "origin",
                                                  "value",  "deviation",  "seeds",      "meaning",
@@ -20,8 +33,13 @@ static const char *const column_name[COLUMNS] = {"tier",   "point",      "observ
 static const char *const origin_name[ORIGIN_COUNT] = {
     "analytic", "bits", "curve", "ensemble", "independent", "published", "seed"};
 
-static const char comment[] =
-    "# References of one case, sorted with LC_ALL=C sort; see docs/references.md.\n";
+static const struct table_form form = {
+    .what = "references",
+    .comment = "# References of one case, sorted with LC_ALL=C sort; see docs/references.md.\n",
+    .column = column_name,
+    .columns = COLUMNS,
+    .max_bytes = MAX_BYTES,
+};
 
 const char *reference_origin_name(enum reference_origin o) {
     return origin_name[o];
@@ -43,104 +61,80 @@ static bool from_outside(enum reference_origin o) {
 
 /* -- one line ------------------------------------------------------------------------- */
 
-struct reader {
-    const char *path;
-    struct references *out;
-    struct fault *fault;
-    size_t line;
-};
-
-static bool refuse(struct reader *r, const char *column, const char *text, const char *why) {
-    fault_add(r->fault, STATUS_BAD_INPUT, "%s:%zu: %s: \"%s\": %s", r->path, r->line, column, text,
-              why);
-    return false;
-}
-
-static bool is_hex(const char *text, size_t length) {
-    return strlen(text) == length && strspn(text, "0123456789abcdef") == length;
-}
-
 /* A finite decimal number, or "-" where the origin has none. */
-static bool read_number(struct reader *r, int column, const char *text, bool wanted, double *out) {
+static bool read_number(const struct table_place *at, int column, const char *text, bool wanted,
+                        double *out) {
     char *end;
     *out = NAN;
     if (!wanted)
         return strcmp(text, "-") == 0 ||
-               refuse(r, column_name[column], text, "must be - for this origin");
+               table_refuse(at, column_name[column], text, "must be - for this origin");
     if (*text == '\0' || strspn(text, "0123456789.eE+-") != strlen(text))
-        return refuse(r, column_name[column], text, "is not a decimal number");
+        return table_refuse(at, column_name[column], text, "is not a decimal number");
     *out = strtod(text, &end);
     if (*end != '\0' || end == text || !isfinite(*out))
-        return refuse(r, column_name[column], text, "is not a finite number");
+        return table_refuse(at, column_name[column], text, "is not a finite number");
     return true;
 }
 
-static bool read_seeds(struct reader *r, const char *text, struct reference *out) {
+static bool read_seeds(const struct table_place *at, const char *text, struct reference *out) {
     enum reference_origin o = out->origin;
     size_t length = strspn(text, "0123456789");
     if (length == 0 || length > 9 || text[length] != '\0')
-        return refuse(r, "seeds", text, "is not a number of seeds");
+        return table_refuse(at, "seeds", text, "is not a number of seeds");
     out->seeds = strtoul(text, NULL, 10);
     if ((o == ORIGIN_ENSEMBLE || o == ORIGIN_CURVE) && out->seeds < REFERENCE_MIN_SEEDS)
-        return refuse(r, "seeds", text, "an ensemble needs 32 of them");
+        return table_refuse(at, "seeds", text, "is too few: an ensemble needs 32");
     if ((o == ORIGIN_SEED || o == ORIGIN_BITS) && out->seeds != 1)
-        return refuse(r, "seeds", text, "must be 1 for this origin");
+        return table_refuse(at, "seeds", text, "must be 1 for this origin");
     return true;
 }
 
 /* "CLASS:HEX" of bits, HEX of a curve. */
-static bool read_digest(struct reader *r, char *text, struct reference *out) {
+static bool read_digest(const struct table_place *at, char *text, struct reference *out) {
     char *hex = text;
     if (out->origin == ORIGIN_BITS) {
         hex = strchr(text, ':');
         if (hex == NULL || hex == text)
-            return refuse(r, "value", text, "must be CLASS:HEX");
+            return table_refuse(at, "value", text, "must be CLASS:HEX");
         *hex++ = '\0';
         out->build = text;
     }
     out->digest = hex;
-    return is_hex(hex, HEX_DIGITS) || refuse(r, "value", hex, "is not a digest of 64 hex digits");
+    return table_is_hex(hex, HEX_DIGITS) ||
+           table_refuse(at, "value", hex, "is not a digest of 64 hex digits");
 }
 
 /* Value, deviation and seeds, as the origin has them. */
-static bool read_amounts(struct reader *r, char *const *field, struct reference *out) {
+static bool read_amounts(const struct table_place *at, char *const *field, struct reference *out) {
     enum reference_origin o = out->origin;
     bool digest = o == ORIGIN_BITS || o == ORIGIN_CURVE;
     out->value = NAN;
-    if (digest ? !read_digest(r, field[VALUE], out)
-               : !read_number(r, VALUE, field[VALUE], true, &out->value))
+    if (digest ? !read_digest(at, field[VALUE], out)
+               : !read_number(at, VALUE, field[VALUE], true, &out->value))
         return false;
-    if (!read_number(r, DEVIATION, field[DEVIATION], !digest && o != ORIGIN_SEED, &out->deviation))
+    if (!read_number(at, DEVIATION, field[DEVIATION], !digest && o != ORIGIN_SEED, &out->deviation))
         return false;
     if (o == ORIGIN_ANALYTIC ? out->deviation < 0 : out->deviation <= 0)
-        return refuse(r, "deviation", field[DEVIATION], "must be positive");
-    return read_seeds(r, field[SEEDS], out);
-}
-
-static bool is_date(const char *text) {
-    struct tm day = {0};
-    char again[16];
-    const char *end = strptime(text, "%Y-%m-%d", &day);
-    if (end == NULL || *end != '\0')
-        return false;
-    timegm(&day); /* 31 February becomes a day of March */
-    return strftime(again, sizeof again, "%Y-%m-%d", &day) == 10 && strcmp(again, text) == 0;
+        return table_refuse(at, "deviation", field[DEVIATION], "must be positive");
+    return read_seeds(at, field[SEEDS], out);
 }
 
 /* Where it comes from; lines from outside were made by no run of ours. */
-static bool read_history(struct reader *r, char *const *field, struct reference *out) {
+static bool read_history(const struct table_place *at, char *const *field, struct reference *out) {
     static const size_t digits[] = {MEANING_DIGITS, COMMIT_DIGITS, HEX_DIGITS};
     bool outside = from_outside(out->origin);
     for (int i = 0; i < 3; i++) {
         const char *text = field[MEANING + i];
-        if (outside ? strcmp(text, "-") != 0 : !is_hex(text, digits[i]))
-            return refuse(r, column_name[MEANING + i], text,
-                          outside ? "must be - for what no run gave" : "is not as many hex digits");
+        if (outside ? strcmp(text, "-") != 0 : !table_is_hex(text, digits[i]))
+            return table_refuse(at, column_name[MEANING + i], text,
+                                outside ? "must be - for what no run gave"
+                                        : "is not as many hex digits");
     }
-    if (!is_date(field[DATE]))
-        return refuse(r, "date", field[DATE], "is no day, YYYY-MM-DD");
+    if (!table_is_date(field[DATE]))
+        return table_refuse(at, "date", field[DATE], "is no day, YYYY-MM-DD");
     if (field[WHY][strspn(field[WHY], " -")] == '\0')
-        return refuse(r, "reason", field[WHY], "says nothing");
+        return table_refuse(at, "reason", field[WHY], "says nothing");
     out->meaning = field[MEANING];
     out->commit = field[COMMIT];
     out->solver_key = field[KEY];
@@ -149,25 +143,23 @@ static bool read_history(struct reader *r, char *const *field, struct reference 
     return true;
 }
 
-static bool read_names(struct reader *r, char *const *field, struct reference *out) {
+static bool read_names(const struct table_place *at, char *const *field, struct reference *out) {
     struct fault unknown = FAULT_NONE;
     if (case_tier_find(field[TIER], &out->tier, &unknown) != STATUS_OK)
-        return refuse(r, "tier", field[TIER], "is no tier");
-    if (!reference_origin_find(field[ORIGIN], &out->origin)) {
-        const char *near = schema_nearest(field[ORIGIN], origin_name, ORIGIN_COUNT);
-        return refuse(r, "origin", field[ORIGIN], near == NULL ? "is no origin" : near);
-    }
+        return table_refuse(at, "tier", field[TIER], "is no tier");
+    if (!reference_origin_find(field[ORIGIN], &out->origin))
+        return table_refuse_name(at, "origin", field[ORIGIN], origin_name, ORIGIN_COUNT);
     out->point = field[POINT];
     out->observable = field[OBSERVABLE];
     if (*out->point == '\0')
-        return refuse(r, "point", "", "is empty");
-    const char *at = strrchr(out->observable, '@');
+        return table_refuse(at, "point", "", "is empty");
+    const char *mark = strrchr(out->observable, '@');
     bool seeded = out->origin == ORIGIN_SEED || out->origin == ORIGIN_BITS;
-    if (seeded && (at == NULL || at == out->observable || at[1] == '\0' ||
-                   at[1 + strspn(at + 1, "0123456789")] != '\0'))
-        return refuse(r, "observable", out->observable, "must end in @SEED");
+    if (seeded && (mark == NULL || mark == out->observable || mark[1] == '\0' ||
+                   mark[1 + strspn(mark + 1, "0123456789")] != '\0'))
+        return table_refuse(at, "observable", out->observable, "must end in @SEED");
     if (out->origin == ORIGIN_BITS && strncmp(out->observable, "bits@", 5) != 0)
-        return refuse(r, "observable", out->observable, "must be bits@SEED for this origin");
+        return table_refuse(at, "observable", out->observable, "must be bits@SEED for this origin");
     return true;
 }
 
@@ -179,158 +171,53 @@ static bool same_key(const struct reference *a, const struct reference *b) {
            (a->origin != ORIGIN_BITS || strcmp(a->build, b->build) == 0);
 }
 
-/* Cut at tabs; how many fields there are, at most COLUMNS of them in field[]. */
-static size_t split(char *line, char **field) {
-    size_t count = 0;
-    for (char *next = line; next != NULL; count++) {
-        char *here = next;
-        next = strchr(here, '\t');
-        if (next != NULL)
-            *next++ = '\0';
-        if (count < COLUMNS)
-            field[count] = here;
-    }
-    return count;
-}
-
-static bool is_clean(const char *line) {
-    for (const char *p = line; *p != '\0'; p++) {
-        if (((unsigned char)*p < ' ' && *p != '\t') || *p == 127)
-            return false;
-    }
-    return true;
-}
-
-/* The line is cut up; `whole` is the same and stays. */
-static enum status take_line(struct reader *r, char *line, const char *whole) {
-    struct references *out = r->out;
-    char *field[COLUMNS];
-    struct reference one = {.line = r->line, .text = whole};
-    if (strncmp(line, "<<<<<<<", 7) == 0 || strncmp(line, ">>>>>>>", 7) == 0 ||
-        strcmp(line, "=======") == 0)
-        return fault_add(r->fault, STATUS_BAD_INPUT, "%s:%zu: a merge conflict is not solved",
-                         r->path, r->line);
-    if (!is_clean(line))
-        return fault_add(r->fault, STATUS_BAD_INPUT, "%s:%zu: a control character", r->path,
-                         r->line);
-    size_t columns = split(line, field);
-    if (columns != COLUMNS)
-        return fault_add(r->fault, STATUS_BAD_INPUT, "%s:%zu: %zu columns, must be %d", r->path,
-                         r->line, columns, (int)COLUMNS);
-    if (!read_names(r, field, &one) || !read_amounts(r, field, &one) ||
-        !read_history(r, field, &one))
-        return r->fault->status;
+static enum status take_line(void *owner, const struct table_place *at, char *const *field,
+                             const char *whole) {
+    struct references *out = owner;
+    struct reference one = {.line = at->line, .text = whole};
+    if (!read_names(at, field, &one) || !read_amounts(at, field, &one) ||
+        !read_history(at, field, &one))
+        return STATUS_OK;
     for (size_t i = out->count; i > 0 && out->item[i - 1].tier == one.tier; i--) {
         if (same_key(&out->item[i - 1], &one))
-            return fault_add(r->fault, STATUS_BAD_INPUT, "%s:%zu: the same key as in line %zu",
-                             r->path, r->line, out->item[i - 1].line);
+            return fault_add(at->fault, STATUS_BAD_INPUT, "%s:%zu: the same key as in line %zu",
+                             at->path, at->line, out->item[i - 1].line);
         if (strcmp(out->item[i - 1].point, one.point) != 0)
             break; /* the file is sorted: no such key farther up, else it is refused for that */
     }
     struct reference *wider = arena_grow(&out->arena, out->item, out->count, sizeof *wider);
     if (wider == NULL)
-        return fault_set(r->fault, STATUS_NO_MEMORY, "%s: out of memory", r->path);
+        return fault_set(at->fault, STATUS_NO_MEMORY, "%s: out of memory", at->path);
     out->item = wider;
     out->item[out->count++] = one;
     return STATUS_OK;
 }
 
-static void write_header(FILE *out) {
-    for (int i = 0; i < COLUMNS; i++)
-        fprintf(out, "%s%c", column_name[i], i == COLUMNS - 1 ? '\n' : '\t');
-}
-
-static bool is_header(const char *line) {
-    for (int i = 0; i < COLUMNS; i++) {
-        size_t length = strlen(column_name[i]);
-        if (strncmp(line, column_name[i], length) != 0 ||
-            line[length] != (i == COLUMNS - 1 ? '\0' : '\t'))
-            return false;
-        line += length + 1;
-    }
-    return true;
-}
-
-/* text is cut up and must stay: the lines point into it. */
-static enum status read_text(struct reader *r, char *text) {
-    const char *before = NULL;
-    bool header = false;
-    if (*text == '\0' || text[strlen(text) - 1] != '\n')
-        return fault_set(r->fault, STATUS_BAD_INPUT, "%s: does not end in a whole line", r->path);
-    for (char *line = text, *next; *line != '\0'; line = next) {
-        next = strchr(line, '\n');
-        *next++ = '\0';
-        r->line++;
-        if (!header && *line == '#')
-            continue;
-        if (!header) {
-            header = is_header(line);
-            if (!header)
-                return fault_set(r->fault, STATUS_BAD_INPUT,
-                                 "%s:%zu: not the header of a table of references", r->path,
-                                 r->line);
-            continue;
-        }
-        const char *copy = arena_copy(&r->out->arena, line);
-        if (copy == NULL)
-            return fault_set(r->fault, STATUS_NO_MEMORY, "%s: out of memory", r->path);
-        if (before != NULL && strcmp(before, copy) >= 0)
-            fault_add(r->fault, STATUS_BAD_INPUT, "%s:%zu: %s line %zu: sort with LC_ALL=C",
-                      r->path, r->line,
-                      strcmp(before, copy) == 0 ? "the same as" : "belongs before", r->line - 1);
-        before = copy;
-        if (take_line(r, line, copy) == STATUS_NO_MEMORY)
-            return r->fault->status;
-    }
-    if (!header)
-        fault_add(r->fault, STATUS_BAD_INPUT, "%s: no header", r->path);
-    return r->fault->status;
-}
-
-static enum status parse(const char *path, const char *text, struct references **out,
-                         struct fault *fault) {
-    *out = NULL;
+static enum status create(const char *path, struct references **out, struct fault *fault) {
     struct references *r = calloc(1, sizeof *r);
-    char *own = r == NULL ? NULL : arena_copy(&r->arena, text);
-    if (own == NULL || (r->path = arena_copy(&r->arena, path)) == NULL) {
-        reference_free(r);
-        return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path);
-    }
-    struct fault found = FAULT_NONE;
-    struct reader reader = {r->path, r, &found, 0};
-    if (read_text(&reader, own) != STATUS_OK) {
-        *fault = found;
-        reference_free(r);
-        return found.status;
-    }
     *out = r;
-    return STATUS_OK;
+    if (r != NULL && (r->path = arena_copy(&r->arena, path)) != NULL)
+        return STATUS_OK;
+    reference_free(r);
+    *out = NULL;
+    return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path);
 }
 
 enum status reference_load(const char *folder, const char *case_name, struct references **out,
                            struct fault *fault) {
-    char *text = NULL, *path = NULL;
-    size_t length = 0;
+    char *path = NULL;
     *out = NULL;
     if (asprintf(&path, "%s/%s.tsv", folder == NULL ? "" : folder, case_name) < 0)
         return fault_set(fault, STATUS_NO_MEMORY, "references: out of memory");
-    enum status status = STATUS_OK;
-    if (folder == NULL || !file_exists(path)) {
-        *out = calloc(1, sizeof **out);
-        if (*out == NULL || ((*out)->path = arena_copy(&(*out)->arena, path)) == NULL)
-            status = fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path);
-    } else {
-        status = file_read(path, MAX_BYTES, &text, &length, fault);
-        if (status == STATUS_OK && strlen(text) != length)
-            status = fault_set(fault, STATUS_BAD_INPUT, "%s: is not a text", path);
-        if (status == STATUS_OK)
-            status = parse(path, text, out, fault);
+    enum status status = create(path, out, fault);
+    if (status == STATUS_OK && folder != NULL && file_exists(path)) {
+        struct table_place from = {(*out)->path, 0, &(*out)->arena, fault};
+        status = table_load(&form, &from, take_line, *out);
     }
     if (status != STATUS_OK) {
         reference_free(*out);
         *out = NULL;
     }
-    free(text);
     free(path);
     return status;
 }
@@ -360,44 +247,27 @@ static const char *line_of(struct arena *a, const struct reference *r) {
                       r->meaning, r->commit, r->solver_key, r->date, r->reason);
 }
 
-static int by_text(const void *a, const void *b) {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
-}
-
-static enum status write_lines(const char *path, const struct reference *item, size_t count,
-                               struct arena *a, FILE *out, struct fault *fault) {
-    const char **line = arena_take(a, count, sizeof *line);
-    for (size_t i = 0; line != NULL && i < count; i++) {
-        line[i] = line_of(a, &item[i]);
-        if (line[i] == NULL)
-            line = NULL;
+/* Would reading refuse the text? */
+static enum status read_again(const char *path, const char *text, struct fault *fault) {
+    struct references *again = NULL;
+    enum status status = create(path, &again, fault);
+    if (status == STATUS_OK) {
+        struct table_place from = {again->path, 0, &again->arena, fault};
+        status = table_read(&form, &from, text, take_line, again);
     }
-    if (line == NULL)
-        return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path);
-    if (count > 0)
-        qsort(line, count, sizeof *line, by_text);
-    fputs(comment, out);
-    write_header(out);
-    for (size_t i = 0; i < count; i++)
-        fprintf(out, "%s\n", line[i]);
-    return STATUS_OK;
+    reference_free(again);
+    return status;
 }
 
 enum status reference_text(const char *path, const struct reference *item, size_t count, char **out,
                            struct fault *fault) {
     struct arena a = {0};
-    struct references *again = NULL;
-    size_t length = 0;
-    *out = NULL;
-    FILE *stream = open_memstream(out, &length);
-    enum status status = stream == NULL
-                             ? fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path)
-                             : write_lines(path, item, count, &a, stream, fault);
-    if (stream != NULL && fclose(stream) != 0 && status == STATUS_OK)
-        status = fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path);
+    const char **line = arena_take(&a, count, sizeof *line);
+    for (size_t i = 0; line != NULL && i < count; i++)
+        line[i] = line_of(&a, &item[i]);
+    enum status status = table_write(&form, line, count, out, fault);
     if (status == STATUS_OK)
-        status = parse(path, *out, &again, fault); /* nothing is written that reading refuses */
-    reference_free(again);
+        status = read_again(path, *out, fault);
     arena_free(&a);
     if (status != STATUS_OK) {
         free(*out);
