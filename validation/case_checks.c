@@ -1,4 +1,5 @@
 /* case_checks.c -- the checks of a tier: the case's list with the tier's overrides. */
+#include "common/date.h"
 #include "validation/case_read.h"
 
 #include <stdio.h>
@@ -139,12 +140,6 @@ static void read_regression(struct case_reader *r, const struct layers *l, struc
                         2 * k->margin.value, k->detects.percent ? " %" : "");
 }
 
-static bool is_date(const char *text) {
-    int year, month, day, end = 0;
-    return strlen(text) == 10 && sscanf(text, "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 &&
-           end == 10 && year >= 2000 && month >= 1 && month <= 12 && day >= 1 && day <= 31;
-}
-
 static void read_known(struct case_reader *r, const struct yaml_node *n, struct case_check *k) {
     if (n == NULL || !case_read_fields(r, n, "known", known_fields, 2))
         return;
@@ -152,7 +147,7 @@ static void read_known(struct case_reader *r, const struct yaml_node *n, struct 
     k->known_since = yaml_get(n, "since")->text;
     if (is_blank(k->known_because))
         case_read_fault(r, yaml_get(n, "because"), "must not be empty");
-    if (!is_date(k->known_since))
+    if (!date_is_day(k->known_since))
         case_read_fault(r, yaml_get(n, "since"), "since: must be a date, as 2026-11-22");
 }
 

@@ -1,8 +1,8 @@
 #include "validation/claims_stored.h"
 
-#include "validation/table.h"
-
+#include "common/date.h"
 #include "common/file.h"
+#include "validation/table.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -59,7 +59,7 @@ static bool read_line(const struct reader *r, const struct table_place *at, char
         return false;
     if (!table_is_hex(field[COMMIT], COMMIT_DIGITS))
         return table_refuse(at, "commit", field[COMMIT], "is no commit of 40 hex digits");
-    if (!table_is_date(field[DATE]))
+    if (!date_is_day(field[DATE]))
         return table_refuse(at, "date", field[DATE], "is no day, YYYY-MM-DD");
     if (field[WHY][strspn(field[WHY], " -.")] == '\0')
         return table_refuse(at, "reason", field[WHY], "says nothing");

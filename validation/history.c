@@ -5,6 +5,7 @@
 #include "common/yaml.h"
 #include "report/sheet.h"
 #include "validation/key.h"
+#include "validation/record.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,115 +20,68 @@ enum { MAX_BYTES = 1 << 30, MAX_RECORD_BYTES = 1 << 20 };
 
 /* -- reading ---------------------------------------------------------------------- */
 
-struct reader {
-    struct arena *arena;
-    struct fault *fault;
-};
-
-static const struct yaml_node *member(struct reader *r, const struct yaml_node *map,
-                                      const char *key, enum yaml_kind kind) {
-    const struct yaml_node *n = map->kind == YAML_MAP ? yaml_get(map, key) : NULL;
-    if (n != NULL && n->kind == kind)
-        return n;
-    yaml_fault(map, r->fault, "%s: missing or of another kind: no line of bedcheck's", key);
-    return NULL;
-}
-
-static bool is_null(const struct yaml_node *n) {
-    return !n->quoted && strcmp(n->text, "null") == 0;
-}
-
-static const char *text_of(struct reader *r, const struct yaml_node *map, const char *key) {
-    const struct yaml_node *n = member(r, map, key, YAML_SCALAR);
-    if (n == NULL || is_null(n))
-        return NULL;
-    const char *text = arena_copy(r->arena, n->text);
-    if (text == NULL)
-        fault_set(r->fault, STATUS_NO_MEMORY, "history: out of memory");
-    return text;
-}
-
-/* A text that must not be null. */
-static const char *name_of(struct reader *r, const struct yaml_node *map, const char *key) {
-    const char *text = text_of(r, map, key);
-    if (text == NULL && r->fault->status == STATUS_OK)
-        yaml_fault(map, r->fault, "%s: must be a text", key);
-    return text;
-}
-
-static double real_of(struct reader *r, const struct yaml_node *map, const char *key) {
-    double value = NAN;
-    const struct yaml_node *n = member(r, map, key, YAML_SCALAR);
-    if (n != NULL && !is_null(n))
-        yaml_real(n, &value, r->fault);
-    return value;
-}
-
-static size_t count_of(struct reader *r, const struct yaml_node *map, const char *key) {
-    long long value = 0;
-    const struct yaml_node *n = member(r, map, key, YAML_SCALAR);
-    if (n != NULL && yaml_integer(n, &value, r->fault) == STATUS_OK && value < 0)
-        yaml_fault(n, r->fault, "%s: must not be negative", key);
-    return value < 0 ? 0 : (size_t)value;
-}
-
-static void read_values(struct reader *r, const struct yaml_node *root, struct history_line *out) {
-    const struct yaml_node *list = member(r, root, "observables", YAML_LIST);
+static void read_values(const struct record *r, const struct yaml_node *root,
+                        struct history_line *out) {
+    const struct yaml_node *list = record_member(r, root, "observables", YAML_LIST);
     if (list == NULL)
         return;
     struct history_value *value = arena_take(r->arena, list->count, sizeof *value);
     if (value == NULL) {
-        fault_set(r->fault, STATUS_NO_MEMORY, "history: out of memory");
+        record_no_memory(r);
         return;
     }
     for (size_t i = 0; i < list->count; i++) {
         const struct yaml_node *n = &list->child[i];
-        value[i] = (struct history_value){.case_name = name_of(r, n, "case"),
-                                          .check = name_of(r, n, "check"),
-                                          .point = name_of(r, n, "point"),
-                                          .unit = text_of(r, n, "unit"),
-                                          .measured = real_of(r, n, "measured"),
-                                          .uncertainty = real_of(r, n, "uncertainty"),
-                                          .expected = real_of(r, n, "expected"),
-                                          .tolerance = real_of(r, n, "tolerance")};
+        value[i] = (struct history_value){.case_name = record_text(r, n, "case"),
+                                          .check = record_text(r, n, "check"),
+                                          .point = record_text(r, n, "point"),
+                                          .unit = record_optional_text(r, n, "unit"),
+                                          .measured = record_real(r, n, "measured"),
+                                          .uncertainty = record_real(r, n, "uncertainty"),
+                                          .expected = record_real(r, n, "expected"),
+                                          .tolerance = record_real(r, n, "tolerance")};
     }
     out->value = value;
     out->value_count = list->count;
 }
 
-static void read_worst(struct reader *r, const struct yaml_node *root, struct history_line *out) {
-    const struct yaml_node *n = member(r, root, "worst", YAML_MAP);
+static void read_worst(const struct record *r, const struct yaml_node *root,
+                       struct history_line *out) {
+    const struct yaml_node *n = record_member(r, root, "worst", YAML_MAP);
     if (n == NULL)
         return;
-    const char *case_name = text_of(r, n, "case"), *check = text_of(r, n, "check");
-    const char *point = text_of(r, n, "point");
-    out->worst_used = real_of(r, n, "margin_used");
+    const char *case_name = record_optional_text(r, n, "case");
+    const char *check = record_optional_text(r, n, "check");
+    const char *point = record_optional_text(r, n, "point");
+    out->worst_used = record_real(r, n, "margin_used");
     if (case_name != NULL && check != NULL && point != NULL)
         out->worst = arena_text(r->arena, "%s: %s, %s", case_name, check, point);
 }
 
-static void read_line(struct reader *r, const struct yaml_node *root, struct history_line *out) {
-    const char *schema = name_of(r, root, "schema");
+static void read_line(const struct record *r, const struct yaml_node *root,
+                      struct history_line *out) {
+    const char *schema = record_text(r, root, "schema");
     if (schema == NULL)
         return;
     if (strcmp(schema, "bedcheck-history 1") != 0) {
         yaml_fault(root, r->fault, "schema: %s is not bedcheck-history 1", schema);
         return;
     }
-    const struct yaml_node *counts = member(r, root, "counts", YAML_MAP);
-    *out = (struct history_line){.commit = name_of(r, root, "commit"),
-                                 .dirty = name_of(r, root, "dirty"),
-                                 .started = name_of(r, root, "started"),
-                                 .tier = name_of(r, root, "tier"),
-                                 .solver_key = name_of(r, root, "solver_key"),
-                                 .modification = text_of(r, root, "modification"),
-                                 .verdict = name_of(r, root, "verdict"),
-                                 .wall_s = real_of(r, root, "wall_s"),
-                                 .cpu_s = real_of(r, root, "cpu_s")};
+    const struct yaml_node *counts = record_member(r, root, "counts", YAML_MAP);
+    *out = (struct history_line){.commit = record_text(r, root, "commit"),
+                                 .dirty = record_text(r, root, "dirty"),
+                                 .started = record_text(r, root, "started"),
+                                 .tier = record_text(r, root, "tier"),
+                                 .solver_key = record_text(r, root, "solver_key"),
+                                 .modification = record_optional_text(r, root, "modification"),
+                                 .verdict = record_text(r, root, "verdict"),
+                                 .wall_s = record_real(r, root, "wall_s"),
+                                 .cpu_s = record_real(r, root, "cpu_s")};
     if (counts != NULL)
         out->counts = (struct results_counts){
-            count_of(r, counts, "pass"), count_of(r, counts, "known"), count_of(r, counts, "fail"),
-            count_of(r, counts, "inconclusive"), count_of(r, counts, "skipped")};
+            record_count(r, counts, "pass"), record_count(r, counts, "known"),
+            record_count(r, counts, "fail"), record_count(r, counts, "inconclusive"),
+            record_count(r, counts, "skipped")};
     read_worst(r, root, out);
     read_values(r, root, out);
 }
@@ -135,7 +89,7 @@ static void read_line(struct reader *r, const struct yaml_node *root, struct his
 static enum status add_line(struct history *h, const char *path, const char *text, size_t length,
                             struct fault *fault) {
     struct yaml_document *d = NULL;
-    struct reader r = {&h->arena, fault};
+    const struct record r = {&h->arena, fault, "no line of bedcheck's"};
     struct history_line *list = arena_grow(&h->arena, h->line, h->count, sizeof *list);
     if (list == NULL)
         return fault_set(fault, STATUS_NO_MEMORY, "history: out of memory");

@@ -1,6 +1,7 @@
 /* reference.c -- see reference.h: the table read, checked line by line, and written. */
 #include "validation/reference.h"
 
+#include "common/date.h"
 #include "common/file.h"
 #include "validation/table.h"
 
@@ -131,7 +132,7 @@ static bool read_history(const struct table_place *at, char *const *field, struc
                                 outside ? "must be - for what no run gave"
                                         : "is not as many hex digits");
     }
-    if (!table_is_date(field[DATE]))
+    if (!date_is_day(field[DATE]))
         return table_refuse(at, "date", field[DATE], "is no day, YYYY-MM-DD");
     if (field[WHY][strspn(field[WHY], " -")] == '\0')
         return table_refuse(at, "reason", field[WHY], "says nothing");

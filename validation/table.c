@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 struct reader {
     const struct table_form *form;
@@ -41,16 +40,6 @@ bool table_refuse_name(const struct table_place *at, const char *column, const c
 
 bool table_is_hex(const char *text, size_t digits) {
     return strlen(text) == digits && strspn(text, "0123456789abcdef") == digits;
-}
-
-bool table_is_date(const char *text) {
-    struct tm day = {0};
-    char again[16];
-    const char *end = strptime(text, "%Y-%m-%d", &day);
-    if (end == NULL || *end != '\0')
-        return false;
-    timegm(&day); /* 31 February becomes a day of March */
-    return strftime(again, sizeof again, "%Y-%m-%d", &day) == 10 && strcmp(again, text) == 0;
 }
 
 /* -- one line ------------------------------------------------------------------------- */

@@ -55,7 +55,6 @@ bool table_refuse_name(const struct table_place *at, const char *column, const c
                        const char *const *name, size_t count); /* false */
 
 bool table_is_hex(const char *text, size_t digits);
-bool table_is_date(const char *text); /* a day there is, YYYY-MM-DD */
 
 /* Reads a text, or the file at->path.  On error the fault has every finding. */
 enum status table_read(const struct table_form *form, const struct table_place *from,

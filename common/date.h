@@ -1,0 +1,13 @@
+/* date.h -- days as stored texts name them: YYYY-MM-DD.
+ *
+ * Checked by: tests/unit/test_date.c.
+ */
+#ifndef COMMON_DATE_H
+#define COMMON_DATE_H
+
+#include <stdbool.h>
+
+/* Is it a day that there is, and written so? */
+bool date_is_day(const char *text);
+
+#endif
