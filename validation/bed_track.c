@@ -231,3 +231,21 @@ enum status bed_track_distances(const struct bed_track *seen, size_t skip,
     free(moving);
     return STATUS_OK;
 }
+
+enum status bed_track_curve(const struct bed_track *t, const double *y, const char *name,
+                            const char *label, struct measurement *out, struct fault *fault) {
+    if (t->count == 0)
+        return STATUS_OK;
+    double *own = calloc(2 * t->count, sizeof *own);
+    size_t n = 0;
+    if (!own)
+        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a curve");
+    for (size_t k = 0; k < t->count; k++)
+        if (!isnan(y[k])) {
+            own[n] = t->time_s[k];
+            own[t->count + n++] = y[k];
+        }
+    enum status status = measurement_add_curve(out, name, label, own, own + t->count, n, fault);
+    free(own);
+    return status;
+}

@@ -21,6 +21,7 @@
 #define VALIDATION_BED_TRACK_H
 
 #include "validation/bed_change.h"
+#include "validation/recipe.h"
 
 struct bed_reading {
     double before, after; /* phibar (1) */
@@ -61,5 +62,10 @@ double bed_track_meeting(const struct bed_track *t);
 enum status bed_track_distances(const struct bed_track *seen, size_t skip,
                                 const struct bed_track *theory, double share, double distance_R[3],
                                 struct fault *fault);
+
+/* A curve of those entries of y[0 .. count-1], one of t's, that are numbers; none of an empty
+ * track. */
+enum status bed_track_curve(const struct bed_track *t, const double *y, const char *name,
+                            const char *label, struct measurement *out, struct fault *fault);
 
 #endif

@@ -255,37 +255,16 @@ static void find_state(const struct step *s, struct measurement *out) {
     out->value[END_BULK] = find_bulk(s, rest, frames - 1, s->change.after);
 }
 
-/* A curve of what is a number. */
-static enum status add_curve(const char *name, const char *label, const struct bed_track *t,
-                             const double *y, struct measurement *out, struct fault *fault) {
-    double *own = calloc(2 * t->count, sizeof *own);
-    size_t n = 0;
-    if (t->count == 0) {
-        free(own);
-        return STATUS_OK;
-    }
-    if (!own)
-        return fault_set(fault, STATUS_NO_MEMORY, "no memory for a curve");
-    for (size_t k = 0; k < t->count; k++)
-        if (!isnan(y[k])) {
-            own[n] = t->time_s[k];
-            own[t->count + n++] = y[k];
-        }
-    enum status status = measurement_add_curve(out, name, label, own, own + t->count, n, fault);
-    free(own);
-    return status;
-}
-
 static enum status add_curves(const struct step *s, struct measurement *out, struct fault *fault) {
     const struct bed_track *track[] = {&s->seen, &s->kinematic, &s->pressure};
     static const char *const label[] = {"measured", "kinematic wave", "with pressure and inertia"};
     enum status status = STATUS_OK;
     for (size_t i = 0; !status && i < 3; i++)
-        status = add_curve("centre", label[i], track[i], track[i]->centre_R, out, fault);
+        status = bed_track_curve(track[i], track[i]->centre_R, "centre", label[i], out, fault);
     for (size_t i = 0; !status && i < 3; i++)
-        status = add_curve("top", label[i], track[i], track[i]->top_R, out, fault);
+        status = bed_track_curve(track[i], track[i]->top_R, "top", label[i], out, fault);
     for (size_t i = 0; !status && i < 2; i++)
-        status = add_curve("front", label[i], track[i], track[i]->front_R, out, fault);
+        status = bed_track_curve(track[i], track[i]->front_R, "front", label[i], out, fault);
     return status;
 }
 

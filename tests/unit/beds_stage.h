@@ -3,10 +3,8 @@
 #ifndef BEDS_STAGE_H
 #define BEDS_STAGE_H
 
+#include "tests/unit/case_stage.h"
 #include "tests/unit/spheres_fixture.h"
-#include "validation/figures.h"
-
-#include <sys/stat.h>
 
 enum { BEDS_SPHERES = 7, BEDS_BINS = 52, BEDS_FRAMES = 9, BEDS_SEEDS = 2 };
 #define BEDS_RADIUS_M 3.7e-4
@@ -67,57 +65,42 @@ static inline void beds_write(struct fake_run *f, size_t seed, bool change) {
     unit_ok(h5_commit(f->writer, &f->fault), &f->fault);
 }
 
-static inline void beds_fill(struct beds_stage *s, struct measured_point *p, size_t point) {
-    p->point = &s->m->plan->point[point];
-    p->run_count = p->point->run_count;
-    p->run = arena_take(&s->m->arena, p->run_count, sizeof *p->run);
+static inline void beds_fill(struct beds_stage *s, struct measured_point *p) {
     for (size_t i = 0; i < p->run_count; i++) {
-        p->run[i] = (struct measured_run){.run = p->point->run[i],
-                                          .run_path = s->run[i % BEDS_SEEDS].run,
-                                          .result_path = s->run[i % BEDS_SEEDS].result,
-                                          .usable = true};
-        p->run[i].observable =
-            arena_take(&s->m->arena, s->c->observable_count + 1, sizeof *p->run[i].observable);
+        struct measured_run *r = &p->run[i];
+        r->run_path = s->run[i % BEDS_SEEDS].run;
+        r->result_path = s->run[i % BEDS_SEEDS].result;
+        r->observable = arena_take(&s->m->arena, s->c->observable_count + 1, sizeof *r->observable);
         for (size_t k = 0; k < s->c->observable_count; k++)
             for (size_t j = 0; j < RECIPE_MAX_OUTPUTS; j++)
-                p->run[i].observable[k].value[j] = NAN;
+                r->observable[k].value[j] = NAN;
     }
 }
 
 /* `text`: of the case fake/case; `readings`: of its model, or NULL.  `change`: phibar changes. */
 static inline void beds_set_up(struct beds_stage *s, const char *text, const char *readings,
                                bool change) {
-    struct fault fault = FAULT_NONE;
+    struct fault fault;
     *s = (struct beds_stage){0};
     for (size_t i = 0; i < BEDS_SEEDS; i++) {
         beds_write(&s->run[i], i, change);
         snprintf(s->folder[i], sizeof s->folder[i], "%s", s->run[i].folder);
     }
     snprintf(s->parent, sizeof s->parent, "%s", unit_folder());
-    ck_assert_int_eq(mkdir(unit_path(s->parent, "fake"), 0755), 0);
     ck_assert_int_eq(mkdir(unit_path(s->parent, "readings"), 0755), 0);
     if (readings)
         unit_write(unit_path(s->parent, "readings/suspension.yaml"), readings);
-    unit_write(unit_path(s->parent, "fake/case.yaml"), text);
-    unit_ok(case_load(s->parent, "fake/case", &s->c, &fault), &fault);
-    struct plan_order order = {.file = s->c};
-    const struct case_file *all[] = {s->c};
-    unit_ok(plan_make(&order, 1, all, 1, TIER_SMOKE, 0, &s->plan, &fault), &fault);
-    s->m = calloc(1, sizeof *s->m);
-    s->m->plan = &s->plan->cases[0];
-    s->m->point_count = s->m->plan->point_count;
-    s->m->point = arena_take(&s->m->arena, s->m->point_count, sizeof *s->m->point);
+    s->c = stage_case(s->parent, "fake/case", text, &fault);
+    unit_ok(fault.status, &fault);
+    s->plan = stage_plan(s->c, TIER_SMOKE);
+    s->m = stage_runs(s->plan);
     for (size_t p = 0; p < s->m->point_count; p++)
-        beds_fill(s, &s->m->point[p], p);
+        beds_fill(s, &s->m->point[p]);
     s->out = arena_take(&s->arena, 1, sizeof *s->out);
     s->out->arena = &s->arena;
 }
 
 static inline void beds_tear_down(struct beds_stage *s) {
-    for (size_t p = 0; p < s->m->point_count; p++)
-        for (size_t i = 0; i < s->m->point[p].run_count; i++)
-            for (size_t k = 0; k < s->c->observable_count; k++)
-                measurement_free(&s->m->point[p].run[i].observable[k]);
     measured_case_free(s->m);
     plan_free(s->plan);
     case_free(s->c);
@@ -128,16 +111,7 @@ static inline void beds_tear_down(struct beds_stage *s) {
 }
 
 static inline enum status beds_build(struct beds_stage *s, size_t figure, struct fault *fault) {
-    const struct case_figure *f = &s->c->figure[figure];
-    struct measured_case shown;
-    *fault = (struct fault)FAULT_NONE;
-    unit_ok(figure_select(s->m, f, &s->arena, &shown, fault), fault);
-    struct figure_input in = {.data = &shown,
-                              .file = s->c,
-                              .wanted = f,
-                              .observable = f->observable,
-                              .observable_count = f->observable_count};
-    return figure_find(f->recipe)->build(&in, s->out, fault);
+    return stage_figure(s->m, &s->c->figure[figure], s->c, s->out, fault);
 }
 
 static inline void beds_says(const char *text, const char *words) {

@@ -2,11 +2,10 @@
 #ifndef JUDGED_STAGE_H
 #define JUDGED_STAGE_H
 
-#include "tests/unit/unit.h"
+#include "tests/unit/case_stage.h"
 #include "validation/rows.h"
 
 #include <math.h>
-#include <sys/stat.h>
 
 /* Points height_l = 3.7, 5.3; two seeds of each, 11 and 12. */
 #define STAGE_HEAD                                                                                 \
@@ -79,18 +78,10 @@ static inline void stage_measure(struct stage *s) {
     struct fault fault = FAULT_NONE;
     unit_ok(folder_open(unit_path(s->folder, "out"), true, &s->results, &fault), &fault);
     s->o = (struct execute_options){.folder = s->results, .solver = "./solver"};
-    struct measured_case *m = s->m = calloc(1, sizeof *m);
-    m->plan = &s->budget->plan->cases[0];
-    m->point_count = m->plan->point_count;
-    m->point = arena_take(&m->arena, m->point_count, sizeof *m->point);
+    struct measured_case *m = s->m = stage_runs(s->budget->plan);
     for (size_t p = 0; p < m->point_count; p++) {
-        struct measured_point *point = &m->point[p];
-        point->point = &m->plan->point[p];
-        point->run_count = point->point->run_count;
-        point->run = arena_take(&m->arena, point->run_count, sizeof *point->run);
-        for (size_t i = 0; i < point->run_count; i++) {
-            struct measured_run *r = &point->run[i];
-            *r = (struct measured_run){.run = point->point->run[i], .usable = true};
+        for (size_t i = 0; i < m->point[p].run_count; i++) {
+            struct measured_run *r = &m->point[p].run[i];
             r->observable = arena_take(&m->arena, 1, sizeof *r->observable);
             r->sample = arena_take(&m->arena, m->plan->tier->check_count, sizeof *r->sample);
             ck_assert(r->observable != NULL && r->sample != NULL);

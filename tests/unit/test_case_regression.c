@@ -1,10 +1,8 @@
 /* test_case_regression.c -- checks against references, and known disagreements, as cases say
  * them: what is read, and what is refused. */
-#include "tests/unit/unit.h"
-#include "validation/case.h"
+#include "tests/unit/case_stage.h"
 
 #include <math.h>
-#include <sys/stat.h>
 
 static const char good[] =
     "name: fake/steady\n"
@@ -30,18 +28,7 @@ static const char good[] =
     "  paper: {}\n";
 
 static struct case_file *load(const char *from, const char *to, struct fault *fault) {
-    const char *folder = unit_folder(), *at = strstr(good, from);
-    struct case_file *c;
-    ck_assert_msg(at != NULL, "no '%s' in the case", from);
-    ck_assert_int_eq(mkdir(unit_path(folder, "fake"), 0755), 0);
-    FILE *out = fopen(unit_path(folder, "fake/steady.yaml"), "w");
-    ck_assert_ptr_nonnull(out);
-    fprintf(out, "%.*s%s%s", (int)(at - good), good, to, at + strlen(from));
-    fclose(out);
-    *fault = FAULT_NONE;
-    case_load(folder, "fake/steady", &c, fault);
-    unit_remove(folder);
-    return c;
+    return stage_spoiled("fake/steady", good, from, to, fault);
 }
 
 START_TEST(checks_against_references_are_read) {

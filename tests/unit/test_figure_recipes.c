@@ -1,9 +1,7 @@
 /* test_figure_recipes.c -- figure recipes: they draw the runs, times and laws that they say. */
+#include "tests/unit/case_stage.h"
 #include "tests/unit/fake_run.h"
-#include "validation/figures.h"
 #include "validation/prediction.h"
-
-#include <sys/stat.h>
 
 static const char text[] =
     "name: fake/case\ntitle: t\nsource: s\nquestion: q\nmodel: graingas\nexpect_s: 2\n"
@@ -82,15 +80,11 @@ static void write_run(struct fake_run *f, const char *darcy) {
 }
 
 static void fill(struct stage *s, struct measured_point *p, size_t point) {
-    p->point = &s->m->plan->point[point];
-    p->run_count = p->point->run_count;
-    p->run = arena_take(&s->m->arena, p->run_count, sizeof *p->run);
+    const struct fake_run *f = &s->run[point / 2];
     for (size_t i = 0; i < p->run_count; i++) {
-        const struct fake_run *f = &s->run[point / 2];
-        p->run[i] = (struct measured_run){.run = p->point->run[i],
-                                          .run_path = f->run,
-                                          .result_path = f->result,
-                                          .usable = point > 0 || i > 0};
+        p->run[i].run_path = f->run;
+        p->run[i].result_path = f->result;
+        p->run[i].usable = point > 0 || i > 0;
         p->run[i].observable = arena_take(&s->m->arena, OBSERVABLES, sizeof *p->run[i].observable);
     }
 }
@@ -103,16 +97,10 @@ static void set_up(struct stage *s) {
     snprintf(parent, sizeof parent, "%s", s->run[0].folder); /* unit_folder has one buffer */
     s->parent = parent;
     write_run(&s->run[1], "corrected");
-    ck_assert_int_eq(mkdir(unit_path(parent, "fake"), 0755), 0);
-    unit_write(unit_path(parent, "fake/case.yaml"), text);
-    unit_ok(case_load(parent, "fake/case", &s->c, &fault), &fault);
-    struct plan_order order = {.file = s->c};
-    const struct case_file *all[] = {s->c};
-    unit_ok(plan_make(&order, 1, all, 1, TIER_SMOKE, 0, &s->plan, &fault), &fault);
-    s->m = calloc(1, sizeof *s->m);
-    s->m->plan = &s->plan->cases[0];
-    s->m->point_count = s->m->plan->point_count;
-    s->m->point = arena_take(&s->m->arena, s->m->point_count, sizeof *s->m->point);
+    s->c = stage_case(parent, "fake/case", text, &fault);
+    unit_ok(fault.status, &fault);
+    s->plan = stage_plan(s->c, TIER_SMOKE);
+    s->m = stage_runs(s->plan);
     for (size_t p = 0; p < s->m->point_count; p++)
         fill(s, &s->m->point[p], p);
     s->out = arena_take(&s->arena, 1, sizeof *s->out);
@@ -120,10 +108,6 @@ static void set_up(struct stage *s) {
 }
 
 static void tear_down(struct stage *s) {
-    for (size_t p = 0; p < s->m->point_count; p++)
-        for (size_t i = 0; i < s->m->point[p].run_count; i++)
-            for (size_t k = 0; k < OBSERVABLES; k++)
-                measurement_free(&s->m->point[p].run[i].observable[k]);
     measured_case_free(s->m);
     plan_free(s->plan);
     case_free(s->c);
@@ -135,16 +119,7 @@ static void tear_down(struct stage *s) {
 /* Build one of the case's figures, with the observables of `file`. */
 static enum status build(struct stage *s, const struct case_file *file, size_t figure,
                          struct fault *fault) {
-    const struct case_figure *f = &s->c->figure[figure];
-    struct measured_case shown;
-    *fault = (struct fault)FAULT_NONE;
-    unit_ok(figure_select(s->m, f, &s->arena, &shown, fault), fault);
-    struct figure_input in = {.data = &shown,
-                              .file = file,
-                              .wanted = f,
-                              .observable = f->observable,
-                              .observable_count = f->observable_count};
-    return figure_find(f->recipe)->build(&in, s->out, fault);
+    return stage_figure(s->m, &s->c->figure[figure], file, s->out, fault);
 }
 
 static void says(const char *caption, const char *words) {

@@ -1,8 +1,5 @@
 /* test_figure_text.c -- validation/figures.h: points as a legend shows them. */
-#include "tests/unit/unit.h"
-#include "validation/figures.h"
-
-#include <sys/stat.h>
+#include "tests/unit/case_stage.h"
 
 static const char head[] =
     "name: fake/case\ntitle: t\nsource: s\nquestion: q\nmodel: fake\nexpect_s: 2\n"
@@ -16,38 +13,31 @@ static const char readings[] = "model: fake\nreadings:\n"
 struct stage {
     struct case_file *c;
     struct plan *plan;
+    struct measured_case *data;
     struct arena arena;
-    struct measured_case data;
-    struct measured_point point[8];
 };
 
 static void set_up(struct stage *s, const char *rest) {
-    struct fault fault = FAULT_NONE;
+    struct fault fault;
     char text[2048];
     const char *folder = unit_folder();
     *s = (struct stage){0};
-    ck_assert_int_eq(mkdir(unit_path(folder, "fake"), 0755), 0);
     ck_assert_int_eq(mkdir(unit_path(folder, "readings"), 0755), 0);
     unit_write(unit_path(folder, "readings/fake.yaml"), readings);
     snprintf(text, sizeof text, "%s%s", head, rest);
-    unit_write(unit_path(folder, "fake/case.yaml"), text);
-    unit_ok(case_load(folder, "fake/case", &s->c, &fault), &fault);
-    struct plan_order order = {.file = s->c};
-    const struct case_file *const all[] = {s->c};
-    unit_ok(plan_make(&order, 1, all, 1, TIER_SMOKE, 0, &s->plan, &fault), &fault);
+    s->c = stage_case(folder, "fake/case", text, &fault);
+    unit_ok(fault.status, &fault);
+    s->plan = stage_plan(s->c, TIER_SMOKE);
+    s->data = stage_runs(s->plan);
     unit_remove(folder);
-    s->data.plan = &s->plan->cases[0];
-    s->data.point = s->point;
-    s->data.point_count = s->data.plan->point_count;
-    for (size_t i = 0; i < s->data.point_count; i++)
-        s->point[i].point = &s->data.plan->point[i];
 }
 
 static const char *text_of(struct stage *s, size_t point, const char *along) {
-    return figure_point_text(&s->data, &s->point[point], along, &s->arena);
+    return figure_point_text(s->data, &s->data->point[point], along, &s->arena);
 }
 
 static void tear_down(struct stage *s) {
+    measured_case_free(s->data);
     plan_free(s->plan);
     case_free(s->c);
     arena_free(&s->arena);

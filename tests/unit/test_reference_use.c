@@ -1,10 +1,8 @@
 /* test_reference_use.c -- validation/reference.h: keys of rows, and lines that nobody uses. */
-#include "tests/unit/unit.h"
+#include "tests/unit/case_stage.h"
 #include "validation/reference.h"
 #include "validation/reference_curve.h"
 #include "validation/scatter.h"
-
-#include <sys/stat.h>
 
 static const char body[] =
     "name: fake/steady\ntitle: t\nsource: s\nquestion: q\nmodel: fake\nexpect_s: 2\n"
@@ -34,15 +32,11 @@ struct stage {
 };
 
 static struct stage set_up(const char *text, enum tier tier) {
-    struct fault fault = FAULT_NONE;
+    struct fault fault;
     struct stage s = {.folder = unit_folder()};
-    ck_assert_int_eq(mkdir(unit_path(s.folder, "fake"), 0755), 0);
-    unit_write(unit_path(s.folder, "fake/steady.yaml"), text);
-    unit_ok(case_load(s.folder, "fake/steady", &s.file, &fault), &fault);
-    struct plan_order order = {.file = s.file};
-    unit_ok(
-        plan_make(&order, 1, (const struct case_file *const *)&s.file, 1, tier, 0, &s.plan, &fault),
-        &fault);
+    s.file = stage_case(s.folder, "fake/steady", text, &fault);
+    unit_ok(fault.status, &fault);
+    s.plan = stage_plan(s.file, tier);
     return s;
 }
 

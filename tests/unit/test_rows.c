@@ -1,9 +1,8 @@
 /* test_rows.c -- validation/rows.h: rows of points, of fits over a sweep, of failed runs. */
-#include "tests/unit/unit.h"
+#include "tests/unit/case_stage.h"
 #include "validation/rows.h"
 
 #include <math.h>
-#include <sys/stat.h>
 
 static const char text[] =
     "name: fake/case\ntitle: t\nsource: s\nquestion: q\nmodel: fake\nexpect_s: 2\n"
@@ -31,7 +30,7 @@ static void fill(struct stage *s, struct measured_run *r, const struct measured_
     struct arena *a = &s->m->arena;
     double step = measured_parameter(p, "step");
     double order = measured_parameter_is(p, "darcy", "published") ? 2 : 1;
-    *r = (struct measured_run){.run = r->run, .usable = true, .seconds = 0.25};
+    r->seconds = 0.25;
     r->observable = arena_take(a, 1, sizeof *r->observable);
     r->sample = arena_take(a, 2, sizeof *r->sample);
     ck_assert(r->observable != NULL && r->sample != NULL);
@@ -42,30 +41,17 @@ static void fill(struct stage *s, struct measured_run *r, const struct measured_
 }
 
 static void set_up(struct stage *s) {
-    struct fault fault = FAULT_NONE;
+    struct fault fault;
     s->parent = unit_folder();
-    ck_assert_int_eq(mkdir(unit_path(s->parent, "fake"), 0755), 0);
-    unit_write(unit_path(s->parent, "fake/case.yaml"), text);
-    unit_ok(case_load(s->parent, "fake/case", &s->c, &fault), &fault);
-    struct plan_order order = {.file = s->c};
-    const struct case_file *all[] = {s->c};
-    unit_ok(plan_make(&order, 1, all, 1, TIER_SMOKE, 0, &s->plan, &fault), &fault);
+    s->c = stage_case(s->parent, "fake/case", text, &fault);
+    unit_ok(fault.status, &fault);
+    s->plan = stage_plan(s->c, TIER_SMOKE);
     unit_ok(folder_open(unit_path(s->parent, "out"), true, &s->folder, &fault), &fault);
     s->o = (struct execute_options){.folder = s->folder, .solver = "./solver"};
-    s->m = calloc(1, sizeof *s->m);
-    s->m->plan = &s->plan->cases[0];
-    s->m->point_count = s->m->plan->point_count;
-    s->m->point = arena_take(&s->m->arena, s->m->point_count, sizeof *s->m->point);
-    for (size_t p = 0; p < s->m->point_count; p++) {
-        struct measured_point *point = &s->m->point[p];
-        point->point = &s->m->plan->point[p];
-        point->run_count = point->point->run_count;
-        point->run = arena_take(&s->m->arena, point->run_count, sizeof *point->run);
-        for (size_t i = 0; i < point->run_count; i++) {
-            point->run[i].run = point->point->run[i];
-            fill(s, &point->run[i], point);
-        }
-    }
+    s->m = stage_runs(s->plan);
+    for (size_t p = 0; p < s->m->point_count; p++)
+        for (size_t i = 0; i < s->m->point[p].run_count; i++)
+            fill(s, &s->m->point[p].run[i], &s->m->point[p]);
 }
 
 static struct rows *judge(struct stage *s) {

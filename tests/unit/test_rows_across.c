@@ -1,9 +1,8 @@
 /* test_rows_across.c -- validation/rows_across.h: fits over seeds, and fits made of them. */
-#include "tests/unit/unit.h"
+#include "tests/unit/case_stage.h"
 #include "validation/rows.h"
 
 #include <math.h>
-#include <sys/stat.h>
 
 static const char good[] =
     "name: fake/case\ntitle: t\nsource: s\nquestion: q\nmodel: fake\nexpect_s: 2\n"
@@ -38,7 +37,6 @@ static void fill(struct stage *s, struct measured_point *p, size_t seed) {
     struct measured_run *r = &p->run[seed];
     double height = 1.68 - 0.5 * measured_parameter(p, "phibar");
     double y[3] = {0.4, height + noise[seed], 0.9 - noise[seed]};
-    r->usable = true;
     r->seconds = 0.25;
     r->observable = arena_take(&s->m->arena, 1, sizeof *r->observable);
     r->sample = arena_take(&s->m->arena, 2, sizeof *r->sample);
@@ -50,37 +48,18 @@ static void fill(struct stage *s, struct measured_point *p, size_t seed) {
     }
 }
 
-static void load(struct stage *s, const char *text, struct fault *fault) {
-    *fault = FAULT_NONE;
-    s->parent = unit_folder();
-    ck_assert_int_eq(mkdir(unit_path(s->parent, "fake"), 0755), 0);
-    unit_write(unit_path(s->parent, "fake/case.yaml"), text);
-    case_load(s->parent, "fake/case", &s->c, fault);
-}
-
 static void set_up(struct stage *s) {
     struct fault fault;
-    load(s, good, &fault);
+    s->parent = unit_folder();
+    s->c = stage_case(s->parent, "fake/case", good, &fault);
     unit_ok(fault.status, &fault);
-    struct plan_order order = {.file = s->c};
-    const struct case_file *all[] = {s->c};
-    unit_ok(plan_make(&order, 1, all, 1, TIER_SMOKE, 0, &s->plan, &fault), &fault);
+    s->plan = stage_plan(s->c, TIER_SMOKE);
     unit_ok(folder_open(unit_path(s->parent, "out"), true, &s->folder, &fault), &fault);
     s->o = (struct execute_options){.folder = s->folder, .solver = "./solver"};
-    s->m = calloc(1, sizeof *s->m);
-    s->m->plan = &s->plan->cases[0];
-    s->m->point_count = s->m->plan->point_count;
-    s->m->point = arena_take(&s->m->arena, s->m->point_count, sizeof *s->m->point);
-    for (size_t p = 0; p < s->m->point_count; p++) {
-        struct measured_point *point = &s->m->point[p];
-        point->point = &s->m->plan->point[p];
-        point->run_count = point->point->run_count;
-        point->run = arena_take(&s->m->arena, point->run_count, sizeof *point->run);
-        for (size_t i = 0; i < point->run_count; i++) {
-            point->run[i].run = point->point->run[i];
-            fill(s, point, i);
-        }
-    }
+    s->m = stage_runs(s->plan);
+    for (size_t p = 0; p < s->m->point_count; p++)
+        for (size_t i = 0; i < s->m->point[p].run_count; i++)
+            fill(s, &s->m->point[p], i);
 }
 
 static struct rows *judge(struct stage *s) {
@@ -187,16 +166,8 @@ static const struct {
 
 START_TEST(every_fault_is_told) {
     struct fault fault;
-    struct stage s = {0};
-    char text[2048];
-    const char *at = strstr(good, bad[_i].from);
-    ck_assert_msg(at != NULL, "no '%s' in the case", bad[_i].from);
-    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - good), good, bad[_i].to,
-             at + strlen(bad[_i].from));
-    load(&s, text, &fault);
-    ck_assert_ptr_null(s.c);
+    ck_assert_ptr_null(stage_spoiled("fake/case", good, bad[_i].from, bad[_i].to, &fault));
     unit_says(&fault, bad[_i].says);
-    unit_remove(s.parent);
 }
 END_TEST
 

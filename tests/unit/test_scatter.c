@@ -1,12 +1,11 @@
 /* test_scatter.c -- validation/scatter.h: what each seed gave, of values, differences and fits. */
 #include "common/random.h"
-#include "tests/unit/unit.h"
+#include "tests/unit/case_stage.h"
 #include "validation/scatter.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_statistics_double.h>
 #include <math.h>
-#include <sys/stat.h>
 
 enum { SEEDS = 40 };
 
@@ -34,7 +33,7 @@ enum { VALUE, TO_THE_BIT, WITHOUT, ALONG, ORDER, EXACTLY, CHECKS };
 struct stage {
     struct case_file *file;
     struct plan *plan;
-    struct measured_case m;
+    struct measured_case *m;
     struct arena arena;
     const char *folder;
     struct scatter *list;
@@ -44,9 +43,8 @@ struct stage {
 /* Overlaps scatter by 1 %, the expectation along with them; sweeps go as step^2, by 3 %. */
 static void fill(struct stage *s, struct measured_run *r, double step, gsl_rng *stream) {
     double noise = gsl_ran_gaussian(stream, 0.0137);
-    r->usable = true;
-    r->observable = arena_take(&s->arena, 1, sizeof *r->observable);
-    r->sample = arena_take(&s->arena, CHECKS, sizeof *r->sample);
+    r->observable = arena_take(&s->m->arena, 1, sizeof *r->observable);
+    r->sample = arena_take(&s->m->arena, CHECKS, sizeof *r->sample);
     ck_assert(r->observable != NULL && r->sample != NULL);
     const struct recipe *recipe = recipe_find("contacts");
     for (size_t i = 0; recipe->output[i].name != NULL; i++) {
@@ -62,38 +60,27 @@ static void fill(struct stage *s, struct measured_run *r, double step, gsl_rng *
 }
 
 static void set_up(struct stage *s) {
-    struct fault fault = FAULT_NONE;
+    struct fault fault;
     gsl_rng *stream;
     *s = (struct stage){.folder = unit_folder()};
-    ck_assert_int_eq(mkdir(unit_path(s->folder, "fake"), 0755), 0);
-    unit_write(unit_path(s->folder, "fake/case.yaml"), text);
-    unit_ok(case_load(s->folder, "fake/case", &s->file, &fault), &fault);
-    struct plan_order order = {.file = s->file};
-    const struct case_file *all[] = {s->file};
-    unit_ok(plan_make(&order, 1, all, 1, TIER_SMOKE, 0, &s->plan, &fault), &fault);
+    s->file = stage_case(s->folder, "fake/case", text, &fault);
+    unit_ok(fault.status, &fault);
+    s->plan = stage_plan(s->file, TIER_SMOKE);
+    s->m = stage_runs(s->plan);
     unit_ok(random_stream(23, "test", &stream, &fault), &fault);
-    s->m.plan = &s->plan->cases[0];
-    s->m.point_count = 3;
-    s->m.point = arena_take(&s->arena, 3, sizeof *s->m.point);
-    for (size_t p = 0; p < 3; p++) {
-        struct measured_point *point = &s->m.point[p];
-        point->point = &s->m.plan->point[p];
-        point->run_count = SEEDS;
-        point->run = arena_take(&s->arena, SEEDS, sizeof *point->run);
-        for (size_t i = 0; i < SEEDS; i++) {
-            point->run[i].run = point->point->run[i];
-            fill(s, &point->run[i], measured_parameter(point, "step"), stream);
-        }
-    }
+    for (size_t p = 0; p < s->m->point_count; p++)
+        for (size_t i = 0; i < s->m->point[p].run_count; i++)
+            fill(s, &s->m->point[p].run[i], measured_parameter(&s->m->point[p], "step"), stream);
     gsl_rng_free(stream);
 }
 
 static void look(struct stage *s) {
     struct fault fault = FAULT_NONE;
-    unit_ok(scatter_measure(&s->m, &s->arena, &s->list, &s->count, &fault), &fault);
+    unit_ok(scatter_measure(s->m, &s->arena, &s->list, &s->count, &fault), &fault);
 }
 
 static void tear_down(struct stage *s) {
+    measured_case_free(s->m);
     plan_free(s->plan);
     case_free(s->file);
     arena_free(&s->arena);
@@ -120,7 +107,7 @@ START_TEST(values_and_differences_seed_by_seed) {
     set_up(&s);
     look(&s);
     for (size_t i = 0; i < SEEDS; i++) {
-        value[i] = s.m.point[1].run[i].sample[VALUE].measured;
+        value[i] = s.m->point[1].run[i].sample[VALUE].measured;
         ck_assert_double_eq(s.list[0].value[i], value[i]);
         ck_assert_int_eq((int)s.list[0].seed[i], 11 + (int)i);
         ck_assert_double_eq_tol(s.list[1].value[i], 0.01, 1e-12); /* the noise is in both */
@@ -152,10 +139,10 @@ END_TEST
 START_TEST(what_is_missing_or_the_same_gives_no_ensemble) {
     struct stage s;
     set_up(&s);
-    s.m.point[1].run[17].usable = false;
-    s.m.point[1].run[17].failure = "crashed: signal 11";
+    s.m->point[1].run[17].usable = false;
+    s.m->point[1].run[17].failure = "crashed: signal 11";
     for (size_t i = 0; i < SEEDS; i++)
-        s.m.point[2].run[i].sample[ALONG].measured = s.m.point[2].run[i].sample[ALONG].expected;
+        s.m->point[2].run[i].sample[ALONG].measured = s.m->point[2].run[i].sample[ALONG].expected;
     look(&s);
     ck_assert_str_eq(s.list[0].missing, "crashed: signal 11");
     ck_assert(isnan(s.list[0].mean) && isnan(s.list[0].deviation));
@@ -168,7 +155,7 @@ END_TEST
 START_TEST(a_fit_of_unequal_seeds_gives_no_ensemble) {
     struct stage s;
     set_up(&s);
-    s.m.point[2].run_count = SEEDS - 1;
+    s.m->point[2].run_count = SEEDS - 1;
     look(&s);
     ck_assert_ptr_nonnull(strstr(s.list[2].missing, "different numbers of seeds"));
     tear_down(&s);
