@@ -205,6 +205,8 @@ static enum status fit_spread(const struct across_point *point, size_t count, do
     uncertainty[0] = hypot(high->uncertainty, value[0] * low->uncertainty) / low->y;
     value[1] = sum / (double)count;
     uncertainty[1] = sqrt(variance) / (double)count;
+    value[2] = value[0] - 1;
+    uncertainty[2] = uncertainty[0];
     return STATUS_OK;
 }
 
@@ -265,10 +267,10 @@ static const struct across ENDS = {
 
 static const struct across SPREAD = {
     .name = "spread",
-    .title = "Largest value over the smallest, at any x, and the mean",
+    .title = "Largest value over the smallest, at any x; the mean; by how much the ratio exceeds 1",
     .source = "ratio; with scatter it lies above that of the true values",
     .min_points = 2,
-    .output = {"ratio", "mean", NULL},
+    .output = {"ratio", "mean", "excess", NULL},
     .fit = fit_spread,
 };
 

@@ -86,6 +86,21 @@ START_TEST(ends_compare_the_smallest_with_the_largest) {
 }
 END_TEST
 
+START_TEST(a_spread_is_of_the_largest_and_the_smallest_wherever_they_are) {
+    const struct across_point p[] = {{0.3, 7.18, 0.09}, {0.35, 6.83, 0.07}, {0.4, 7.21, 0.11}};
+    double value[3], u[3], ratio = 7.21 / 6.83;
+    ck_assert_int_eq(fit("spread", p, 3, value, u), STATUS_OK);
+    ck_assert_double_eq_tol(value[0], ratio, 1e-14);
+    ck_assert_double_eq_tol(u[0], hypot(0.11, 0.07 * ratio) / 6.83, 1e-14);
+    ck_assert_double_eq_tol(value[1], 7.0733333333333333, 1e-12);
+    ck_assert_double_eq_tol(u[1], sqrt(0.0251) / 3, 1e-12);
+    ck_assert_double_eq_tol(value[2], ratio - 1, 1e-14);
+    ck_assert_double_eq(u[2], u[0]);
+    const struct across_point none[] = {{0.3, 7.18, 0.09}, {0.4, 0, 0.1}};
+    ck_assert_int_eq(fit("spread", none, 2, value, u), STATUS_BAD_INPUT);
+}
+END_TEST
+
 /* y = 3.1 - 1.7 x at x = .3, .4, .5, .6 with equal uncertainties: slope u/sqrt(sum (x - .45)^2). */
 START_TEST(a_slope_is_weighted_and_widened_by_scatter) {
     const struct across *fit = across_find("slope");
@@ -118,6 +133,7 @@ int main(void) {
                                   two_points_without_scatter_are_exact_only_when_said_so,
                                   a_zero_carries_the_uncertainty_of_the_line,
                                   ends_compare_the_smallest_with_the_largest,
+                                  a_spread_is_of_the_largest_and_the_smallest_wherever_they_are,
                                   a_slope_is_weighted_and_widened_by_scatter,
                                   NULL};
     return unit_run("across", tests);
