@@ -12,5 +12,6 @@ bool date_is_day(const char *text) {
     if (end == NULL || *end != '\0')
         return false;
     timegm(&day); /* 31 February becomes a day of March */
-    return strftime(again, sizeof again, "%Y-%m-%d", &day) == 10 && strcmp(again, text) == 0;
+    return day.tm_year >= 100 && strftime(again, sizeof again, "%Y-%m-%d", &day) == 10 &&
+           strcmp(again, text) == 0;
 }

@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-/* Is it a day that there is, and written so? */
+/* Is it a day that there is, of a year from 2000 on, and written so? */
 bool date_is_day(const char *text);
 
 #endif

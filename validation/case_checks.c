@@ -2,7 +2,6 @@
 #include "common/date.h"
 #include "validation/case_read.h"
 
-#include <stdio.h>
 #include <string.h>
 
 enum { MAX_NAMES = 256 };

@@ -12,6 +12,7 @@ enum { MAX_BYTES = 1 << 22, COMMIT_DIGITS = 40 };
 
 static const char *const column_name[COLUMNS] = {"id",     "tier", "verdict",
                                                  "commit", "date", "reason"};
+_Static_assert((int)COLUMNS <= (int)TABLE_COLUMNS_MAX, "no room for the columns of claims");
 static const struct table_form form = {
     .what = "claims",
     .comment = "# Verdicts of the papers' claims, sorted with LC_ALL=C sort; see docs/claims.md.\n",
@@ -29,13 +30,17 @@ struct reader {
 
 static bool read_id(const struct reader *r, const struct table_place *at, const char *text) {
     const char **name = arena_take(&r->out->arena, r->claims->count, sizeof *name);
-    for (size_t i = 0; name != NULL && i < r->claims->count; i++) {
+    if (name == NULL) {
+        fault_set(at->fault, STATUS_NO_MEMORY, "%s: out of memory", at->path);
+        return false;
+    }
+    for (size_t i = 0; i < r->claims->count; i++) {
         const struct claim *c = &r->claims->claim[i];
         name[i] = c->id;
         if (strcmp(c->id, text) == 0)
             return c->test_count > 0 || table_refuse(at, "id", text, "has no tests");
     }
-    return table_refuse_name(at, "claim", text, name, name == NULL ? 0 : r->claims->count);
+    return table_refuse_name(at, "claim", text, name, r->claims->count);
 }
 
 static bool read_verdict(const struct table_place *at, const char *text, enum claim_verdict *out) {
@@ -76,7 +81,7 @@ static enum status take_line(void *owner, const struct table_place *at, char *co
     struct claim_stored one = {0};
     (void)whole;
     if (!read_line(r, at, field, &one))
-        return STATUS_OK;
+        return at->fault->status;
     if (claims_stored_find(r->out, one.id, one.tier) != NULL)
         table_refuse(at, "id", one.id, "has a line in this tier already");
     else
@@ -182,7 +187,7 @@ enum status claims_stored_text(const struct claims_stored *s, const struct claim
         line[i] = arena_text(&a, "%s\t%s\t%s\t%s\t%s\t%s", c->id, case_tier_name(c->tier),
                              claim_verdict_name(c->verdict), c->commit, c->date, c->reason);
     }
-    enum status status = table_write(&form, line, s->count, out, fault);
+    enum status status = table_write(&form, s->path, line, s->count, out, fault);
     if (status == STATUS_OK)
         status = read_again(s, claims, *out, fault);
     arena_free(&a);

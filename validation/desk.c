@@ -122,11 +122,15 @@ static void tell_row(FILE *out, const struct report_row *r, bool with_command) {
         tell_text(out, "log: ", r->log_end);
 }
 
-/* What repeats row i repeats a row above it as well, which has told it. */
-static bool was_told(const struct rows *rows, size_t i) {
+static bool is_claim(const struct report_row *r) {
+    return strcmp(r->kind, "claim") == 0;
+}
+
+/* What repeats row i repeats a row above it as well, which has told it: claims are told last. */
+static bool was_told(const struct report_row *row, size_t i) {
     for (size_t k = 0; k < i; k++)
-        if (rows->row[k].verdict != VERDICT_PASS &&
-            strcmp(rows->row[k].repeat, rows->row[i].repeat) == 0)
+        if (row[k].verdict != VERDICT_PASS && is_claim(&row[k]) == is_claim(&row[i]) &&
+            strcmp(row[k].repeat, row[i].repeat) == 0)
             return true;
     return false;
 }
@@ -171,7 +175,7 @@ static enum verdict tell_case(const struct desk *d, size_t index) {
     fprintf(out, "  (%.1f s of solver)\n", seconds);
     for (size_t i = 0; i < rows->count; i++) {
         if (rows->row[i].verdict != VERDICT_PASS)
-            tell_row(out, &rows->row[i], !was_told(rows, i));
+            tell_row(out, &rows->row[i], !was_told(rows->row, i));
     }
     fflush(out);
     return v;
@@ -248,9 +252,9 @@ static void tell_claims(const struct desk *d, const struct report *r) {
         return;
     for (size_t i = 0; i < r->case_count; i++) {
         for (size_t k = 0; k < r->cases[i].row_count; k++) {
-            const struct report_row *row = &r->cases[i].row[k];
-            if (strcmp(row->kind, "claim") == 0 && row->verdict != VERDICT_PASS)
-                tell_row(out, row, true);
+            const struct report_row *row = r->cases[i].row;
+            if (is_claim(&row[k]) && row[k].verdict != VERDICT_PASS)
+                tell_row(out, &row[k], !was_told(row, k));
         }
     }
     claim_tally(r->ledger, count);

@@ -87,13 +87,6 @@ double figure_bed_number(const struct measured_point *p, const char *name) {
     return n && n->kind == YAML_SCALAR && !yaml_real(n, &value, &none) ? value : NAN;
 }
 
-const struct measured_run *figure_bed_run(const struct measured_point *p) {
-    for (size_t i = 0; i < p->run_count; i++)
-        if (p->run[i].usable)
-            return &p->run[i];
-    return NULL;
-}
-
 enum status figure_bed_open(const struct measured_run *run, struct figure_bed *out,
                             struct fault *fault) {
     struct fault absent = FAULT_NONE; /* an empty list has no attribute */
@@ -220,7 +213,7 @@ static enum status take_input(const struct figure_input *in, const struct measur
 enum status figure_bed_predict(const struct figure_input *in, const struct measured_point *p,
                                const struct prediction *prediction, double *out,
                                struct fault *fault) {
-    const struct measured_run *run = figure_bed_run(p);
+    const struct measured_run *run = figure_first_run(p);
     double input[PREDICTION_MAX_INPUTS] = {0}, error;
     struct run_view *view = NULL;
     if (!run)

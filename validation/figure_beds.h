@@ -48,9 +48,6 @@ bool figure_bed_reaches(const struct figure_bed *b, const struct series *s, doub
 enum status figure_bed_frame(const struct figure_bed *b, const char *name, const struct series *s,
                              double time_s, size_t *frame, struct fault *fault);
 
-/* The first usable run of a point, or NULL. */
-const struct measured_run *figure_bed_run(const struct measured_point *p);
-
 /* Curves of a name of the usable seeds that have the abscissae of the first such seed, or that
  * seed's alone where they differ: curve[0 .. return-1]. */
 size_t figure_bed_curves(const struct figure_input *in, const struct measured_point *p,

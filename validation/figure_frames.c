@@ -15,9 +15,9 @@ enum status figure_frames_run(const struct figure_input *in, const struct measur
                               const struct measured_run **run, struct fault *fault) {
     for (size_t i = 0; i < in->data->point_count; i++) {
         *point = &in->data->point[i];
-        for (size_t k = 0; k < (*point)->run_count; k++)
-            if ((*run = &(*point)->run[k])->usable)
-                return STATUS_OK;
+        *run = figure_first_run(*point);
+        if (*run)
+            return STATUS_OK;
     }
     return fault_set(fault, STATUS_BAD_INPUT, "no run can be used");
 }

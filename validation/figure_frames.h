@@ -3,11 +3,11 @@
  * A recipe opens its run, says what times the run's frames have, and lets the settings of the
  * figure choose among them:
  *
- * side by side   at the times of the first setting, `times`, or at six spread over the run.  A time
- *                that the run does not reach is left out, and `missing` says so for the caption;
- *                one that lies between two frames is a fault.
- * moving         all frames, or those at multiples of the first setting (0: all), and of these
- *                evenly no more than the second setting, `frames`.
+ * side by side   at the times of the first setting, `times`, or at six spread over the run from its
+ * first time on.  A time that the run does not reach is left out, and `missing` says so for the
+ * caption; one that lies between two frames is a fault. moving         all frames, or those at
+ * multiples of the first setting (0: all), and of these evenly no more than the second setting,
+ * `frames`.
  *
  * Used by:    figure_sequence.c (grains), figure_spheres.c (spheres).
  * Checked by: tests/unit/test_figure_frames.c.

@@ -290,7 +290,7 @@ static enum status add_wave(struct drawing *d, const char *theory, struct fault 
     struct figure_bed b;
     struct bed_change change;
     double change_s;
-    enum status status = figure_bed_open(figure_bed_run(d->point), &b, fault);
+    enum status status = figure_bed_open(figure_first_run(d->point), &b, fault);
     if (status)
         return status;
     status = bed_change_read(b.view, &change, &change_s, fault);
@@ -309,7 +309,7 @@ static enum status add_wave(struct drawing *d, const char *theory, struct fault 
 
 static enum status add_curve(struct drawing *d, const char *name, struct fault *fault) {
     const struct curve *c;
-    const struct measurement *m = &figure_bed_run(d->point)->observable[d->in->observable[0]];
+    const struct measurement *m = &figure_first_run(d->point)->observable[d->in->observable[0]];
     for (size_t nth = 0; (c = figure_curve_find(m, name, nth)) != NULL; nth++) {
         if (d->series_count >= MAX_SERIES - 1)
             return fault_set(fault, STATUS_BAD_INPUT, "too many curves %s", name);
@@ -432,7 +432,7 @@ static enum status build(const struct figure_input *in, struct figure_output *ou
     enum status status = STATUS_OK;
     bool any = false;
     for (size_t i = 0; i < in->data->point_count && !status; i++)
-        if (figure_bed_run(&in->data->point[i])) {
+        if (figure_first_run(&in->data->point[i])) {
             status = build_point(in, &in->data->point[i], out, fault);
             any = true;
         }

@@ -5,7 +5,7 @@
  * ones light.  The case must write particles/grains/species, with its observables or `also_write`.
  *
  * time-sequence, at `times` (tau), and animation, every `every_tau`, choose frames as
- * figure_frames.h says.
+ * figure_frames.h says; a frame is at a time within half a step, `dt_tau`.
  *
  * Source:     MFM, Fig. 5.
  * Leaves out: the gas.

@@ -66,6 +66,13 @@ double figure_mean(const struct figure_input *in, const struct measured_point *p
     return mean;
 }
 
+const struct measured_run *figure_first_run(const struct measured_point *p) {
+    for (size_t i = 0; i < p->run_count; i++)
+        if (p->run[i].usable)
+            return &p->run[i];
+    return NULL;
+}
+
 enum status figure_needs(const struct figure_input *in, const char *recipe, struct fault *fault) {
     const char *has = in->file->observable[in->observable[0]].recipe->name;
     if (strcmp(has, recipe) == 0)

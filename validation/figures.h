@@ -92,6 +92,8 @@ const struct curve *figure_curve_find(const struct measurement *m, const char *n
  * no seed has it. */
 double figure_mean(const struct figure_input *in, const struct measured_point *p,
                    const char *output, double *error);
+/* The first usable run of a point, or NULL. */
+const struct measured_run *figure_first_run(const struct measured_point *p);
 /* Is the first observable of `of:` one of this recipe?  The fault says so if not. */
 enum status figure_needs(const struct figure_input *in, const char *recipe, struct fault *fault);
 /* Are there no more points than can be told apart? */

@@ -34,6 +34,7 @@ static const char *const column_name[COLUMNS] = {"tier",   "point",      "observ
 static const char *const origin_name[ORIGIN_COUNT] = {
     "analytic", "bits", "curve", "ensemble", "independent", "published", "seed"};
 
+_Static_assert((int)COLUMNS <= (int)TABLE_COLUMNS_MAX, "no room for the columns of references");
 static const struct table_form form = {
     .what = "references",
     .comment = "# References of one case, sorted with LC_ALL=C sort; see docs/references.md.\n",
@@ -178,7 +179,7 @@ static enum status take_line(void *owner, const struct table_place *at, char *co
     struct reference one = {.line = at->line, .text = whole};
     if (!read_names(at, field, &one) || !read_amounts(at, field, &one) ||
         !read_history(at, field, &one))
-        return STATUS_OK;
+        return at->fault->status;
     for (size_t i = out->count; i > 0 && out->item[i - 1].tier == one.tier; i--) {
         if (same_key(&out->item[i - 1], &one))
             return fault_add(at->fault, STATUS_BAD_INPUT, "%s:%zu: the same key as in line %zu",
@@ -266,7 +267,7 @@ enum status reference_text(const char *path, const struct reference *item, size_
     const char **line = arena_take(&a, count, sizeof *line);
     for (size_t i = 0; line != NULL && i < count; i++)
         line[i] = line_of(&a, &item[i]);
-    enum status status = table_write(&form, line, count, out, fault);
+    enum status status = table_write(&form, path, line, count, out, fault);
     if (status == STATUS_OK)
         status = read_again(path, *out, fault);
     arena_free(&a);

@@ -186,8 +186,8 @@ static bool are_whole(const char *const *line, size_t count) {
     return true;
 }
 
-enum status table_write(const struct table_form *form, const char **line, size_t count, char **out,
-                        struct fault *fault) {
+enum status table_write(const struct table_form *form, const char *path, const char **line,
+                        size_t count, char **out, struct fault *fault) {
     size_t length = 0;
     FILE *stream = NULL;
     *out = NULL;
@@ -205,5 +205,5 @@ enum status table_write(const struct table_form *form, const char **line, size_t
         free(*out);
         *out = NULL;
     }
-    return fault_set(fault, STATUS_NO_MEMORY, "table of %s: out of memory", form->what);
+    return fault_set(fault, STATUS_NO_MEMORY, "%s: out of memory", path);
 }

@@ -42,8 +42,8 @@ struct table_place {
     struct fault *fault;
 };
 
-/* One line: field[0 .. columns-1] and the line as it stands; both stay with the arena and may be
- * cut up.  What it refuses it has said; STATUS_NO_MEMORY ends the reading. */
+/* One line: field[0 .. columns-1], which may be cut up, and the line as it stands, which may not;
+ * both stay with the arena.  What it refuses it has said; STATUS_NO_MEMORY ends the reading. */
 typedef enum status table_take(void *owner, const struct table_place *at, char *const *field,
                                const char *whole);
 
@@ -56,7 +56,7 @@ bool table_refuse_name(const struct table_place *at, const char *column, const c
 
 bool table_is_hex(const char *text, size_t digits);
 
-/* Reads a text, or the file at->path.  On error the fault has every finding. */
+/* Reads a text, or the file from->path.  On error the fault has every finding. */
 enum status table_read(const struct table_form *form, const struct table_place *from,
                        const char *text, table_take *take, void *owner);
 enum status table_load(const struct table_form *form, const struct table_place *from,
@@ -64,7 +64,7 @@ enum status table_load(const struct table_form *form, const struct table_place *
 
 /* The table of line[0 .. count-1], which are sorted on the way, NULL among them: no memory.  Free
  * *out. */
-enum status table_write(const struct table_form *form, const char **line, size_t count, char **out,
-                        struct fault *fault);
+enum status table_write(const struct table_form *form, const char *path, const char **line,
+                        size_t count, char **out, struct fault *fault);
 
 #endif

@@ -107,10 +107,33 @@ START_TEST(kinematic_fronts_of_a_compaction_are_those_of_the_closed_form) {
 }
 END_TEST
 
+START_TEST(a_curve_has_the_numbers_of_a_track_alone) {
+    struct fault fault = FAULT_NONE;
+    struct measurement m = {.curve_count = 0};
+    double time_s[] = {0.13, 0.26, 0.39, 0.52}, front_R[] = {NAN, 31.7, NAN, 29.3};
+    struct bed_track t = {.count = 4, .time_s = time_s, .front_R = front_R};
+    unit_ok(bed_track_curve(&t, t.front_R, "front", "measured", &m, &fault), &fault);
+    ck_assert_uint_eq(m.curve_count, 1);
+    ck_assert_str_eq(m.curve[0].name, "front");
+    ck_assert_str_eq(m.curve[0].label, "measured");
+    ck_assert_uint_eq(m.curve[0].count, 2);
+    ck_assert_double_eq(m.curve[0].x[0], 0.26);
+    ck_assert_double_eq(m.curve[0].y[0], 31.7);
+    ck_assert_double_eq(m.curve[0].x[1], 0.52);
+    ck_assert_double_eq(m.curve[0].y[1], 29.3);
+    t.count = 0;
+    unit_ok(bed_track_curve(&t, t.front_R, "front", "empty", &m, &fault), &fault);
+    ck_assert_uint_eq(m.curve_count, 1);
+    measurement_free(&m);
+}
+END_TEST
+
 int main(void) {
-    const TTest *const tests[] = {
-        edges_of_a_compacting_bed_are_found, edges_and_rise_of_an_expanding_bed_are_found,
-        shares_of_the_way_and_meetings_have_their_times,
-        kinematic_fronts_of_a_compaction_are_those_of_the_closed_form, NULL};
+    const TTest *const tests[] = {edges_of_a_compacting_bed_are_found,
+                                  edges_and_rise_of_an_expanding_bed_are_found,
+                                  shares_of_the_way_and_meetings_have_their_times,
+                                  kinematic_fronts_of_a_compaction_are_those_of_the_closed_form,
+                                  a_curve_has_the_numbers_of_a_track_alone,
+                                  NULL};
     return unit_run("bed_track", tests);
 }

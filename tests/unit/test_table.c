@@ -93,13 +93,14 @@ START_TEST(what_is_written_is_sorted_and_reads_again) {
     char *text;
     struct seen seen;
     struct fault fault = FAULT_NONE;
-    unit_ok(table_write(&form, line, 3, &text, &fault), &fault);
+    unit_ok(table_write(&form, "some.tsv", line, 3, &text, &fault), &fault);
     ck_assert_str_eq(text, "# Widths.\nbed\tsigma_R\treason\nlarge\t6.89\ta\nmiddle\t6.87\tc\n"
                            "small\t7.18\tb\n");
     unit_ok(read_text(text, &seen, &fault), &fault);
     ck_assert_uint_eq(seen.count, 3);
     free(text);
-    ck_assert_int_eq(table_write(&form, gone, 2, &text, &fault), STATUS_NO_MEMORY);
+    ck_assert_int_eq(table_write(&form, "some.tsv", gone, 2, &text, &fault), STATUS_NO_MEMORY);
+    unit_says(&fault, "some.tsv: out of memory");
     ck_assert_ptr_null(text);
 }
 END_TEST
