@@ -250,12 +250,23 @@ enum status case_value_real(const struct yaml_node *n, double *out, struct fault
     return yaml_real(n->kind == YAML_LIST ? &n->child[0] : n, out, fault);
 }
 
-size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count) {
-    for (size_t i = 0; i < s->rule_count; i++) {
-        if (case_filter_takes(&s->rule[i].points, p, count))
-            return s->rule[i].count;
+double case_rule_value(const struct case_rules *r, const struct case_parameter *p, size_t count) {
+    for (size_t i = 0; i < r->count; i++) {
+        if (case_filter_takes(&r->rule[i].points, p, count))
+            return r->rule[i].value;
     }
     return 0;
+}
+
+double case_rule_largest(const struct case_rules *r) {
+    double largest = 0;
+    for (size_t i = 0; i < r->count; i++)
+        largest = r->rule[i].value > largest ? r->rule[i].value : largest;
+    return largest;
+}
+
+size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count) {
+    return (size_t)case_rule_value(&s->count, p, count);
 }
 
 void case_free(struct case_file *c) {

@@ -42,15 +42,19 @@ struct case_filter { /* which points: each named parameter has one of its values
     const struct yaml_node *map; /* NULL: every point; map->child[i].key names parameter i */
 };
 
-struct case_seed_rule {
+struct case_rule {
     struct case_filter points;
-    size_t count;
+    double value;
 };
 
-struct case_seeds { /* the first rule that a point matches counts */
+struct case_rules { /* a number by point: that of the first rule that the point matches */
+    size_t count;
+    const struct case_rule *rule;
+};
+
+struct case_seeds {
     long long first;
-    size_t rule_count;
-    const struct case_seed_rule *rule;
+    struct case_rules count;
 };
 
 struct case_start {        /* begin from the result of another case's run with the same seed */
@@ -186,7 +190,8 @@ struct case_tier { /* everything of one tier, overrides applied */
     struct case_samples samples, particle_samples; /* the latter may be empty */
     struct case_start start;
     struct case_seeds seeds;
-    double expect_s, limit_s;
+    struct case_rules expect_s; /* of one run */
+    double limit_s;
     const struct case_check *check;
     const struct yaml_node *node;
 };
@@ -281,6 +286,9 @@ double case_curve_at(const struct case_expect *e, double x);
 /* A number, or a list of exactly one; else the fault says what it is. */
 enum status case_value_real(const struct yaml_node *n, double *out, struct fault *fault);
 
+/* A point's number; 0 when no rule matches it.  The largest of all. */
+double case_rule_value(const struct case_rules *r, const struct case_parameter *p, size_t count);
+double case_rule_largest(const struct case_rules *r);
 /* How many seeds a point gets; 0 when no rule matches it. */
 size_t case_seed_count(const struct case_seeds *s, const struct case_parameter *p, size_t count);
 

@@ -26,7 +26,7 @@ static const struct schema_field case_fields[] = {
     {"start", SCHEMA_MAP, false, 0, 0, NULL},
     {"seeds", SCHEMA_MAP, false, 0, 0, NULL},
     {"limit_s", SCHEMA_REAL, false, 0.01, 1e7, NULL},
-    {"expect_s", SCHEMA_REAL, false, 0.001, 1e6, NULL},
+    {"expect_s", SCHEMA_ANY, false, 0, 0, NULL},
     {"observables", SCHEMA_MAP, true, 0, 0, NULL},
     {"across", SCHEMA_MAP, false, 0, 0, NULL},
     {"checks", SCHEMA_LIST, true, 0, 0, NULL},

@@ -227,14 +227,15 @@ static void use_figure(struct case_reader *r, const struct grid *g, const struct
                         f->recipe, case_tier_name(tier));
 }
 
-static void use_seeds(struct case_reader *r, const struct grid *g, const struct case_tier *t) {
-    for (size_t i = 0; i < t->seeds.rule_count; i++)
-        use_filter(r, g, &t->seeds.rule[i].points);
+static void use_rules(struct case_reader *r, const struct grid *g, const struct case_tier *t,
+                      const struct case_rules *rules, const char *key) {
+    for (size_t i = 0; i < rules->count; i++)
+        use_filter(r, g, &rules->rule[i].points);
     for (size_t p = 0; p < g->count; p++) {
-        if (t->seeds.rule_count > 0 && case_seed_count(&t->seeds, grid_at(g, p), g->size[p]) == 0 &&
+        if (rules->count > 0 && !(case_rule_value(rules, grid_at(g, p), g->size[p]) > 0) &&
             r->fault->status == STATUS_OK)
-            case_read_fault(r, t->node, "tier %s: no rule of `seeds` fits some point",
-                            case_tier_name((enum tier)(t - r->c->tier)));
+            case_read_fault(r, t->node, "tier %s: no rule of `%s` fits some point",
+                            case_tier_name((enum tier)(t - r->c->tier)), key);
     }
 }
 
@@ -247,7 +248,8 @@ void case_read_points(struct case_reader *r, enum tier tier) {
         return;
     for (size_t p = 0; p < g.count; p++)
         g.size[p] = case_point(t, p, &g.parameter[p * g.room]);
-    use_seeds(r, &g, t);
+    use_rules(r, &g, t, &t->seeds.count, "seeds");
+    use_rules(r, &g, t, &t->expect_s, "expect_s");
     for (size_t i = 0; i < t->check_count; i++)
         use_check(r, &g, t, &t->check[i]);
     for (size_t i = 0; i < r->c->figure_count; i++)

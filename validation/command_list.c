@@ -222,8 +222,9 @@ static void show_check(FILE *out, const struct case_check *k) {
 
 static void show_tier(FILE *out, const struct case_file *c, enum tier tier) {
     const struct case_tier *t = &c->tier[tier];
-    fprintf(out, "\ntier %s: %zu points, %zu runs, about %g s each (limit %g s)\n",
-            case_tier_name(tier), t->point_count, count_runs(t), t->expect_s, t->limit_s);
+    fprintf(out, "\ntier %s: %zu points, %zu runs, %s %g s each (limit %g s)\n",
+            case_tier_name(tier), t->point_count, count_runs(t),
+            t->expect_s.count > 1 ? "up to" : "about", case_rule_largest(&t->expect_s), t->limit_s);
     show_parameters(out, t);
     if (t->start.case_name != NULL)
         fprintf(out, "    starts from %s\n", t->start.case_name);

@@ -150,7 +150,7 @@ static int tell_plan(const struct work *w) {
     }
     for (size_t i = 0; i < w->plan->run_count; i++) {
         const struct plan_run *r = w->plan->run[i];
-        fprintf(out, "%s  %s  [%s]  %.3g s, %.3g MB%s%s\n",
+        fprintf(out, "%s  %s  [%s]  %.5g s, %.3g MB%s%s\n",
                 w->outcome[i].state == RUN_REUSED ? "reuse" : "run  ", r->name, r->point,
                 r->expect_s, r->bytes / 1e6, r->start == NULL ? "" : ", starts from ",
                 r->start == NULL ? "" : r->start->name);

@@ -151,7 +151,7 @@ static enum status describe_run(struct planner *pl, const struct place *at, stru
     run->point = at->point;
     run->text = plan_text(a, &in, true);
     run->meaning = plan_text(a, &in, false);
-    run->expect_s = at->tier->expect_s;
+    run->expect_s = case_rule_value(&at->tier->expect_s, at->parameter, at->count);
     run->limit_s = at->tier->limit_s;
     run->bytes = plan_text_bytes(&in);
     return run->text == NULL || run->meaning == NULL ? no_memory(pl) : STATUS_OK;

@@ -23,17 +23,15 @@ static enum status check_builds(struct review *r, struct fault *fault) {
 
 enum status review_set_seeds(struct selection *s, size_t count, struct fault *fault) {
     for (size_t i = 0; count > 0 && i < s->count; i++) {
-        struct case_seed_rule *rule = arena_take(&s->arena, 1, sizeof *rule);
+        struct case_rule *rule = arena_take(&s->arena, 1, sizeof *rule);
         if (rule == NULL)
             return no_memory(fault);
-        rule->count = count;
+        rule->value = (double)count;
         for (size_t k = 0; k < s->all_count; k++) {
             if (s->all[k] != s->order[i].file)
                 continue;
-            for (enum tier t = 0; t < TIER_COUNT; t++) {
-                s->all[k]->tier[t].seeds.rule = rule;
-                s->all[k]->tier[t].seeds.rule_count = 1;
-            }
+            for (enum tier t = 0; t < TIER_COUNT; t++)
+                s->all[k]->tier[t].seeds.count = (struct case_rules){1, rule};
         }
     }
     return STATUS_OK;

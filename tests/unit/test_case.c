@@ -98,6 +98,22 @@ START_TEST(points_run_through_the_sweep_the_last_axis_fastest) {
 }
 END_TEST
 
+START_TEST(a_run_s_seconds_go_by_point) {
+    struct fault fault;
+    struct case_file *c = load(
+        "expect_s: 2\n", "expect_s: [{points: {height_l: 64.5}, s: 7.5}, {s: 2.25}]\n", &fault);
+    ck_assert_msg(c != NULL, "%s", fault.text);
+    const struct case_tier *t = &c->tier[TIER_SMOKE];
+    struct case_parameter p[8];
+    case_point(t, 1, p);
+    ck_assert_double_eq(case_rule_value(&t->expect_s, p, 5), 2.25);
+    case_point(t, 2, p);
+    ck_assert_double_eq(case_rule_value(&t->expect_s, p, 5), 7.5);
+    ck_assert_double_eq(t->limit_s, 75);
+    case_free(c);
+}
+END_TEST
+
 START_TEST(a_curve_is_straight_between_its_points_and_ends_soon_after) {
     struct fault fault;
     struct case_file *c = load(
@@ -129,6 +145,11 @@ static const struct {
     {"model: fake", "model: ../fake", "no name of a model"},
     {"expect_s: 2\n", "", "expect_s: missing"},
     {"expect_s: 2", "expect_s: 2s", "expect_s"},
+    {"expect_s: 2", "expect_s: [{points: {start: random}, s: 3}]", "no rule of `expect_s` fits"},
+    {"expect_s: 2", "expect_s: [{points: {start: rendom}, s: 3}, {s: 1}]",
+     "12:29: start: no point of any tier has this value"},
+    {"expect_s: 2", "expect_s: [{s: 3}, {points: {start: random}}]", "s: missing"},
+    {"expect_s: 2", "expect_s: [{s: 90}, {s: 80}]\nlimit_s: 85", "is less than expect_s, 90"},
     {"expect_s: 2", "expect_s: 2\nlimit_s: 1", "limit_s: 1 is less than expect_s"},
     {"[0, 0.3]", "[0.3, 0]", "times are >= 0 and increase"},
     {"[0, 0.3]", "[0, nan]", "10:23:"},
@@ -291,6 +312,7 @@ int main(void) {
     tcase_add_test(group, a_good_case_is_read_with_its_tiers);
     tcase_add_test(group, a_figure_has_points_tiers_and_settings);
     tcase_add_test(group, points_run_through_the_sweep_the_last_axis_fastest);
+    tcase_add_test(group, a_run_s_seconds_go_by_point);
     tcase_add_test(group, a_curve_is_straight_between_its_points_and_ends_soon_after);
     tcase_add_loop_test(group, every_fault_is_told_with_its_place, 0,
                         (int)(sizeof spoiled / sizeof *spoiled));
