@@ -1,14 +1,14 @@
 /* claims_stored.h -- the stored verdicts of the claims: reference/claims.tsv.
  *
  * A claim's verdict decides nothing by itself: what a paper says may be wrong.  But a verdict
- * that changes from one build to the next is a finding, so verdicts are stored, one line a claim
- * and tier, columns separated by tabs, sorted as `LC_ALL=C sort` sorts:
+ * that changes from one build to the next is a finding, so verdicts are stored, a table.h with one
+ * line a claim and tier:
  *
  *     id tier verdict commit date reason
  *
- * Reading refuses, with file:line: another header, a wrong number of columns, unknown claims,
- * tiers and verdicts (with the nearest), what is no commit, date or reason, lines out of order
- * or twice, a claim without tests (nothing of it can change), and conflict markers.
+ * Reading refuses, besides what table.h refuses, unknown claims, tiers and verdicts (with the
+ * nearest), what is no commit, date or reason, a claim and tier that stand twice, and a claim
+ * without tests (nothing of it can change).
  *
  * Checked by: tests/unit/test_claims_stored.c.
  */

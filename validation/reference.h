@@ -3,8 +3,7 @@
  *     reference/CASE.tsv          CASE with its '/': reference/graingas/sedimentation.tsv
  *     reference/curves/HEX.h5     curves, named by the SHA-256 of their bytes (reference_curve.h)
  *
- * One line a reference, columns separated by tabs, sorted as `LC_ALL=C sort` sorts, so that a
- * merge conflict is solved in text and two branches that add lines seldom meet:
+ * A table.h with one line a reference:
  *
  *     tier point observable origin value deviation seeds meaning commit solver_key date reason
  *
@@ -23,9 +22,9 @@
  * `meaning` is the digest of the runs and of the observable as the case's text has them: a
  * reference of another text is none.  Nothing stands in a line and in a curve as well.
  *
- * Reading refuses, with file:line: another header, a wrong number of columns, unknown tiers and
- * origins, lines out of order or twice, numbers that are none or not finite, too few seeds, and
- * conflict markers.  reference_check_tier refuses what the case does not have or does not use.
+ * Reading refuses, besides what table.h refuses, unknown tiers and origins, keys that stand twice,
+ * numbers that are none or not finite, and too few seeds.  reference_check_tier refuses what the
+ * case does not have or does not use.
  *
  * Leaves out: judging (judge.h), and how lines come about (accept.h).
  * Checked by: tests/unit/test_reference.c.
